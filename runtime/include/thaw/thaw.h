@@ -1,0 +1,439 @@
+/* SPDX-FileCopyrightText: 2026 the thaw authors
+ * SPDX-License-Identifier: MIT
+ *
+ * thaw: objects that melt, drip, pool and set again, inside a fixed slice of every frame, on the CPU.
+ *
+ * Conventions that hold for every function:
+ *  - SI units, kelvin, seconds; right-handed; +y is up in the default gravity.
+ *  - A world is a pointer that the host owns. What is in a world is an 8-byte id by value: all zero is null, a stale id and
+ *    the id of another world are refused.
+ *  - Definitions are filled by the library (thawInit*): fill, change what you like, pass. A definition that was not filled
+ *    is refused. Pointers in a definition are read during the call only.
+ *  - Nothing throws, prints or aborts. A refused call changes nothing, and thawWorld_GetLastError names the field and value.
+ *  - A world is used from one thread at a time; calls that take a const world may run together between steps; different
+ *    worlds are independent of each other. There is no global state.
+ *  - Views (const pointers into a world) stay valid until the next call that takes that world without const.
+ */
+#ifndef THAW_H
+#define THAW_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(THAW_STATIC)
+#define THAW_API
+#elif defined(_WIN32)
+#if defined(THAW_BUILDING)
+#define THAW_API __declspec(dllexport)
+#else
+#define THAW_API __declspec(dllimport)
+#endif
+#else
+#define THAW_API __attribute__((visibility("default")))
+#endif
+
+/* major * 10000 + minor * 100 + patch */
+#define THAW_VERSION 100
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- results ---------------------------------------------------------------------------------------------------- */
+
+typedef enum thawResult {
+    thawResult_ok = 0,
+    thawResult_invalidArgument, /* a pointer, an enum, a number out of range or not finite */
+    thawResult_notInitialised,  /* a definition that no thawInit function filled */
+    thawResult_staleId,         /* the id is null, destroyed, or of another world */
+    thawResult_outOfMemory,     /* the allocator refused */
+    thawResult_capacity,        /* a maximum of the world definition is reached */
+    thawResult_badMesh,         /* a mesh that encloses nothing that can be filled; the message says why */
+    thawResult_internal         /* a fault of the library; please report it with the message */
+} thawResult;
+
+/* Bits that thawWorld_Step returns. The step always finishes; the bits say what it had to give up. */
+typedef enum thawStepStatus {
+    thawStep_ok = 0,
+    thawStep_refused = 1 << 0,             /* an argument was refused, nothing was stepped: see thawWorld_GetLastError */
+    thawStep_iterationsClipped = 1 << 1,   /* the viscosity solve stopped at its cap before it met its tolerance */
+    thawStep_subStepsClipped = 1 << 2,     /* depth or speed asked for more sub-steps than the plan allowed */
+    thawStep_velocityClamped = 1 << 3,     /* some particle was faster than the speed limit and was slowed */
+    thawStep_neighborsClipped = 1 << 4,    /* some particle had more neighbours than a list holds */
+    thawStep_badParticlesRemoved = 1 << 5, /* some particle became not finite and was taken out; see the ledger */
+    thawStep_raysReduced = 1 << 6,         /* only part of the visibility rays was refreshed */
+    thawStep_overBudget = 1 << 7           /* the step took longer than its budget in milliseconds */
+} thawStepStatus;
+
+/* THAW_VERSION of the library that runs; differs from the macro when headers and library differ. */
+THAW_API int thawGetVersion(void);
+/* Compiler, version and instruction set in use; for bug reports and golden files. Static storage. */
+THAW_API const char* thawGetBuildString(void);
+/* Name of a result, "unknown" when out of range. Static storage. */
+THAW_API const char* thawResultString(thawResult result);
+/* What one thawStepStatus bit means, in words; "" for 0 or several bits. Static storage. */
+THAW_API const char* thawStepStatusString(uint32_t bit);
+
+/* ---- handles and small types ------------------------------------------------------------------------------------ */
+
+typedef struct thawWorld thawWorld;
+typedef struct thawMaterialId { uint32_t index1; uint16_t world, generation; } thawMaterialId;
+typedef struct thawBodyId { uint32_t index1; uint16_t world, generation; } thawBodyId;
+typedef struct thawColliderId { uint32_t index1; uint16_t world, generation; } thawColliderId;
+typedef struct thawHeatSourceId { uint32_t index1; uint16_t world, generation; } thawHeatSourceId;
+
+typedef struct thawVec3 { float x, y, z; } thawVec3;
+typedef struct thawQuat { float x, y, z, w; } thawQuat; /* unit quaternion; {0,0,0,1} is no rotation */
+
+/* ---- hooks ------------------------------------------------------------------------------------------------------ */
+
+/* Memory of a world. Both NULL: the C++ runtime's. alloc must return memory aligned to `alignment` (a power of two, at most
+ * 64) or NULL. May be called from the thread that calls thaw only. */
+typedef struct thawAllocator {
+    void* (*alloc)(size_t size, size_t alignment, void* user);
+    void (*free)(void* memory, size_t size, void* user);
+    void* user;
+} thawAllocator;
+
+typedef enum thawLogLevel { thawLog_info = 0, thawLog_warning = 1, thawLog_error = 2 } thawLogLevel;
+
+/* Messages of a world; NULL: none. `message` is valid during the call only. */
+typedef struct thawLogger {
+    void (*log)(thawLogLevel level, thawResult code, const char* message, void* user);
+    void* user;
+} thawLogger;
+
+typedef void thawTask(void* context);
+
+/* The host's threads. enqueue hands over one task and returns a handle for finish, or NULL when it already ran it inline;
+ * finish blocks until that task is done. Both are called from the thread that calls thaw, at most workerCount - 1 tasks are
+ * in flight. All NULL: a pool of workerCount - 1 own threads. */
+typedef struct thawTaskSystem {
+    int workerCount; /* threads that take part, the caller included; range 1..64, default 1 */
+    void* (*enqueue)(thawTask* task, void* context, void* user);
+    void (*finish)(void* handle, void* user);
+    void* user;
+} thawTaskSystem;
+
+/* ---- world ------------------------------------------------------------------------------------------------------ */
+
+typedef struct thawWorldDef {
+    uint32_t structSize, cookie;
+    float particleSpacing;      /* m, distance of neighbouring particles at level 0; range 1e-4..1, default 0.002 */
+    int32_t maxParticles;       /* range 8..4000000, default 32768; memory for them is taken at creation */
+    int32_t maxMaterials;       /* range 1..255, default 16 */
+    int32_t maxBodies;          /* range 1..65535, default 64 */
+    int32_t maxColliders;       /* range 1..65535, default 64 */
+    int32_t maxHeatSources;     /* range 1..1024, default 16 */
+    thawVec3 gravity;           /* m/s^2, each |.| <= 1000, default (0, -9.81, 0) */
+    float ambientTemperature;   /* K, range 0..1e5, default 293.15; air and far surroundings */
+    float convection;           /* W/(m^2 K), heat transfer to ambient air; range 0..1e4, default 10 */
+    float thermalTimeScale;     /* heat seconds per second of motion; range 0..1e5, default 1. Real melting takes minutes. */
+    thawAllocator allocator;
+    thawLogger logger;
+    thawTaskSystem tasks;
+    void* userData;
+} thawWorldDef;
+
+THAW_API void thawInitWorldDef(thawWorldDef* def);
+/* Makes a world. On success *outWorld is set and is to be given to thawDestroyWorld. On failure *outWorld is NULL and, when
+ * message is not NULL, up to messageSize - 1 characters say why. */
+THAW_API thawResult thawCreateWorld(const thawWorldDef* def, thawWorld** outWorld, char* message, size_t messageSize);
+/* NULL is allowed. Ends the world's own threads. */
+THAW_API void thawDestroyWorld(thawWorld* world);
+/* Message of the last refused call on this world, "" when there was none. */
+THAW_API const char* thawWorld_GetLastError(const thawWorld* world);
+
+THAW_API thawResult thawWorld_SetGravity(thawWorld* world, thawVec3 gravity);
+THAW_API thawResult thawWorld_SetAmbient(thawWorld* world, float temperature, float convection);
+THAW_API thawResult thawWorld_SetThermalTimeScale(thawWorld* world, float scale);
+
+/* ---- materials -------------------------------------------------------------------------------------------------- */
+
+typedef enum thawMaterialPreset {
+    thawMaterial_wax = 0, /* paraffin */
+    thawMaterial_chocolate,
+    thawMaterial_butter,
+    thawMaterial_ice,
+    thawMaterial_icecream,
+    thawMaterial_presetCount
+} thawMaterialPreset;
+
+typedef struct thawMaterialDef {
+    uint32_t structSize, cookie;
+    float density;              /* kg/m^3, range 1..3e4. One value for both phases: volume does not change on melting */
+    float solidus, liquidus;    /* K, melting begins and ends; 0 < solidus <= liquidus <= 1e5 */
+    float latentHeat;           /* J/kg, range 0..1e7 */
+    float specificHeatSolid, specificHeatLiquid; /* J/(kg K), range 1..1e5 */
+    float conductivitySolid, conductivityLiquid; /* W/(m K), range 0..1e4 */
+    float viscositySolid;       /* Pa s at liquid fraction 0 for mush and pieces that lost their hold; range 1e-3..1e7 */
+    float viscosityLiquid;      /* Pa s at liquid fraction 1; range 1e-4..1e6. log-blended between (RESEARCH 3.4) */
+    float absorptivity;         /* 1, share of incoming radiation that is taken up; range 0..1 */
+    float emissivity;           /* 1, of thermal radiation; range 0..1 */
+    float cohesion;             /* 1, pull between particles in units of g / 10; range 0..20; makes beads */
+    float adhesion;             /* 1, pull toward solid wax and walls in units of g; range 0..5; makes films cling */
+    float setFraction;          /* liquid fraction below which liquid that touches a solid sets; range 0..releaseFraction */
+    float releaseFraction;      /* liquid fraction above which solid lets go; range setFraction..1 */
+    thawVec3 color;             /* linear RGB 0..1, for whoever draws it */
+} thawMaterialDef;
+
+/* Fills with a preset. An unknown preset fills with wax. Sources of the numbers: third_party_notes/data_sources.md. */
+THAW_API void thawInitMaterialDef(thawMaterialDef* def, thawMaterialPreset preset);
+/* "wax", "chocolate", ...; NULL when out of range. Static storage. */
+THAW_API const char* thawMaterialPresetName(thawMaterialPreset preset);
+/* Materials live as long as their world. */
+THAW_API thawResult thawCreateMaterial(thawWorld* world, const thawMaterialDef* def, thawMaterialId* outId);
+
+/* ---- meshes ----------------------------------------------------------------------------------------------------- */
+
+typedef struct thawMesh {
+    const float* vertices;   /* x y z of each vertex, m */
+    size_t vertexCount;      /* at most 50 million */
+    const uint32_t* indices; /* three per triangle, counter-clockwise seen from outside (repaired when not) */
+    size_t triangleCount;    /* at most 100 million */
+} thawMesh;
+
+/* What was found in a mesh and repaired while it was filled. */
+typedef struct thawMeshReport {
+    uint32_t duplicateVertices;   /* welded */
+    uint32_t degenerateTriangles; /* without area, or naming a vertex twice: ignored */
+    uint32_t openEdges;           /* edges with one triangle: holes, closed by the winding number */
+    uint32_t nonManifoldEdges;    /* edges with more than two triangles */
+    uint32_t inconsistentEdges;   /* edges whose two triangles disagree about the outside */
+    uint32_t components;          /* pieces that share no edge */
+    bool inverted;                /* faces looked inward as a whole and were turned */
+    double volume;                /* m^3 enclosed */
+    double area;                  /* m^2 */
+} thawMeshReport;
+
+/* ---- bodies ----------------------------------------------------------------------------------------------------- */
+
+typedef struct thawBodyDef {
+    uint32_t structSize, cookie;
+    thawMaterialId material;
+    thawMesh mesh;         /* closed, or nearly so; filled with particles */
+    thawVec3 position;     /* m, default 0 */
+    thawQuat rotation;     /* default none */
+    float scale;           /* 1, range 1e-6..1e6, default 1 */
+    float temperature;     /* K at the start, range 0..1e5; default: the world's ambient (NaN stands for it) */
+    void* userData;
+} thawBodyDef;
+
+THAW_API void thawInitBodyDef(thawBodyDef* def);
+/* Fills the mesh with particles. Refused, with the reason, when the mesh encloses nothing or the particles do not fit.
+ * report may be NULL; it is filled also when the mesh is refused. */
+THAW_API thawResult thawCreateBody(thawWorld* world, const thawBodyDef* def, thawBodyId* outId, thawMeshReport* report);
+THAW_API thawResult thawDestroyBody(thawWorld* world, thawBodyId id);
+
+typedef struct thawBodyState {
+    int32_t particles;      /* that belong to it now */
+    float mass;             /* kg */
+    float meltedFraction;   /* 1, mass-weighted liquid fraction */
+    float meanTemperature;  /* K, mass-weighted */
+    thawVec3 center;        /* m, centre of mass */
+    thawVec3 lower, upper;  /* m, bounds of the particle centres */
+} thawBodyState;
+THAW_API thawResult thawBody_GetState(const thawWorld* world, thawBodyId id, thawBodyState* out);
+
+/* ---- colliders -------------------------------------------------------------------------------------------------- */
+
+typedef enum thawColliderType {
+    thawCollider_plane = 0, /* solid below: normal is local +y through the position */
+    thawCollider_box,       /* half extents in size */
+    thawCollider_sphere,    /* radius in size.x */
+    thawCollider_mesh       /* solid inside a closed mesh */
+} thawColliderType;
+
+typedef struct thawColliderDef {
+    uint32_t structSize, cookie;
+    thawColliderType type;
+    thawVec3 position;  /* m */
+    thawQuat rotation;
+    thawVec3 size;      /* m, see the type; each > 0, at most 1e4 */
+    thawMesh mesh;      /* for thawCollider_mesh; copied */
+    float scale;        /* 1, of the mesh; range 1e-6..1e6, default 1 */
+    bool adhesive;      /* melt clings to it; default true. Floors are not clung to whatever is set. */
+    bool occluder;      /* shades heat sources; default true */
+    void* userData;
+} thawColliderDef;
+
+THAW_API void thawInitColliderDef(thawColliderDef* def, thawColliderType type);
+THAW_API thawResult thawCreateCollider(thawWorld* world, const thawColliderDef* def, thawColliderId* outId,
+                                       thawMeshReport* report);
+THAW_API thawResult thawDestroyCollider(thawWorld* world, thawColliderId id);
+
+/* ---- heat sources ----------------------------------------------------------------------------------------------- */
+
+typedef struct thawHeatSourceDef {
+    uint32_t structSize, cookie;
+    thawVec3 position; /* m */
+    float power;       /* W, radiated evenly in all directions; range -1e6..1e6 (negative cools), default 20 */
+    float radius;      /* m, no point gets closer than this in the inverse-square law; range 1e-4..10, default 0.005 */
+    bool enabled;      /* default true */
+    void* userData;
+} thawHeatSourceDef;
+
+THAW_API void thawInitHeatSourceDef(thawHeatSourceDef* def);
+THAW_API thawResult thawCreateHeatSource(thawWorld* world, const thawHeatSourceDef* def, thawHeatSourceId* outId);
+/* Replaces every property; takes effect in the next step. */
+THAW_API thawResult thawHeatSource_Set(thawWorld* world, thawHeatSourceId id, const thawHeatSourceDef* def);
+THAW_API thawResult thawDestroyHeatSource(thawWorld* world, thawHeatSourceId id);
+
+/* ---- plan and budget -------------------------------------------------------------------------------------------- */
+
+typedef enum thawStage {
+    thawStage_inputs = 0, /* pending changes of the host */
+    thawStage_neighbors,  /* sort and neighbour lists */
+    thawStage_exposure,   /* which particles are surface; normal and area */
+    thawStage_radiation,  /* rays and irradiance from the sources */
+    thawStage_conduction,
+    thawStage_loss,       /* emission and convection to ambient */
+    thawStage_phase,      /* temperature, liquid fraction, letting go and setting */
+    thawStage_forces,     /* gravity, cohesion, adhesion */
+    thawStage_viscosity,
+    thawStage_pressure,
+    thawStage_collision,  /* walls, swept motion, positions */
+    thawStage_stats,      /* ledger and counters */
+    thawStage_count
+} thawStage;
+
+/* Why a stage runs or does not. */
+typedef enum thawReason {
+    thawReason_needed = 0,      /* the scene asks for it */
+    thawReason_noParticles,     /* nothing there */
+    thawReason_nothingMoves,    /* no liquid and no loose piece */
+    thawReason_nothingChanged,  /* last step's result still holds */
+    thawReason_noSource,        /* no enabled source with power */
+    thawReason_nothingExposed,  /* no surface that loses or takes up heat */
+    thawReason_equilibrium,     /* all at ambient temperature and no source */
+    thawReason_timeScaleZero,   /* heat is switched off by thermalTimeScale = 0 */
+    thawReason_interval         /* not due in this step: see heatInterval */
+} thawReason;
+/* A stage's name and a reason in words; "" when out of range. Static storage. */
+THAW_API const char* thawStageName(thawStage stage);
+THAW_API const char* thawReasonString(thawReason reason);
+
+/* Work units: how much a step may do. The same units and inputs give the same bits on any number of threads. */
+typedef struct thawWork {
+    int32_t subSteps;            /* at most this many; range 1..16 */
+    int32_t pressureIterations;  /* range 1..64; 4 is enough at rest */
+    int32_t viscosityIterations; /* cap of the conjugate gradients; range 1..200 */
+    int32_t heatInterval;        /* heat every n-th step, energy-exact; range 1..8 */
+    float rayRefresh;            /* share of visibility rays cast anew in a step; range 0.05..1 */
+} thawWork;
+
+typedef enum thawBudgetMode {
+    thawBudget_work = 0,    /* do exactly budget.work; never looks at a clock */
+    thawBudget_milliseconds /* the governor chooses the work, at most budget.work, to fit budget.milliseconds */
+} thawBudgetMode;
+
+typedef struct thawBudget {
+    uint32_t structSize, cookie;
+    thawBudgetMode mode; /* default thawBudget_work */
+    float milliseconds;  /* > 0 in its mode, at most 1e4; default 4 */
+    thawWork work;       /* default: 4 sub-steps at most, 4 pressure, 12 viscosity, heat every step, all rays */
+} thawBudget;
+THAW_API void thawInitBudget(thawBudget* budget);
+
+/* What the last step did and why. */
+typedef struct thawPlan {
+    bool enabled[thawStage_count];
+    thawReason reason[thawStage_count];
+    thawWork work;              /* as chosen; feed it back with thawBudget_work for the same bits */
+    float predictedMs;          /* of the governor, 0 in work mode */
+} thawPlan;
+THAW_API void thawWorld_GetPlan(const thawWorld* world, thawPlan* out);
+/* The plan that a step with this budget would run now; steps nothing. */
+THAW_API thawResult thawWorld_PreviewPlan(const thawWorld* world, const thawBudget* budget, thawPlan* out);
+
+/* Advances by timeStep seconds (range 1e-5..0.25). budget NULL: defaults. Returns thawStepStatus bits. */
+THAW_API uint32_t thawWorld_Step(thawWorld* world, float timeStep, const thawBudget* budget);
+
+/* ---- results ---------------------------------------------------------------------------------------------------- */
+
+typedef enum thawParticleFlags {
+    thawParticle_fixed = 1 << 0,  /* solid and held: does not move */
+    thawParticle_surface = 1 << 1 /* exposed to air */
+} thawParticleFlags;
+
+/* Structure of arrays, `count` long each. Order changes from step to step; ids are stable. */
+typedef struct thawParticleView {
+    int32_t count;
+    int32_t moving;               /* the first `moving` particles move, the rest is solid and held */
+    const float* positions;       /* x y z r: m; r is the radius of the particle's sphere of influence for drawing */
+    const float* velocities;      /* x y z m: m/s, and mass in kg */
+    const float* temperatures;    /* K */
+    const float* liquidFractions; /* 0..1 */
+    const float* normals;         /* x y z a: outward unit normal and exposed area in m^2; zero inside */
+    const uint32_t* ids;          /* stable, never used twice in a world */
+    const uint16_t* bodies;       /* index1 - 1 of the thawBodyId */
+    const uint8_t* materials;     /* index1 - 1 of the thawMaterialId */
+    const uint8_t* flags;         /* thawParticleFlags */
+} thawParticleView;
+THAW_API void thawWorld_GetParticles(const thawWorld* world, thawParticleView* out);
+
+typedef struct thawSurfaceDef {
+    uint32_t structSize, cookie;
+    float cellSize;    /* in particle spacings; range 0.25..4, default 0.75 */
+    int32_t smoothing; /* passes over the mesh; range 0..50, default 6 */
+} thawSurfaceDef;
+THAW_API void thawInitSurfaceDef(thawSurfaceDef* def);
+
+typedef struct thawSurfaceView {
+    int32_t vertexCount, triangleCount;
+    const float* positions;       /* x y z, m */
+    const float* normals;         /* x y z, unit, outward */
+    const float* temperatures;    /* K */
+    const float* liquidFractions; /* 0..1 */
+    const uint8_t* materials;     /* index1 - 1 of the nearest particle's material */
+    const uint32_t* indices;      /* three per triangle, counter-clockwise from outside */
+} thawSurfaceView;
+/* Makes the mesh of everything that is in the world. Watertight; empty when there are no particles. */
+THAW_API thawResult thawWorld_ExtractSurface(thawWorld* world, const thawSurfaceDef* def, thawSurfaceView* out);
+
+typedef struct thawLedger {
+    double massAdded, massRemoved, massNow; /* kg */
+    double energyAdded;    /* J, enthalpy that bodies brought, relative to each material's solidus */
+    double energyRemoved;  /* J, taken out with destroyed bodies and bad particles */
+    double absorbed;       /* J from sources */
+    double emitted;        /* J by thermal radiation, net of what ambient sends back */
+    double convected;      /* J to the air */
+    double energyNow;      /* J, sum of m H */
+    double massError;      /* |massNow - added + removed| / added */
+    double energyError;    /* |energyNow - (added - removed + absorbed - emitted - convected)| / largest sum moved */
+} thawLedger;
+THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);
+
+typedef struct thawCounters {
+    int32_t particles, moving, fixed, surface, capacity;
+    int32_t bodies, colliders, heatSources, materials;
+    int32_t subSteps, pressureIterations, viscosityIterations; /* of the last step; iterations summed over sub-steps */
+    int32_t rays, neighborsMax;
+    float neighborsMean;
+    float maxSpeed;            /* m/s */
+    float maxCompression;      /* 1, largest density error of moving particles */
+    float meanCompression;     /* 1 */
+    float apparentViscosity;   /* Pa s, largest viscosity floor that the time step imposed on moving liquid; 0 if none */
+    float meltedFraction;      /* 1, of all mass */
+    float minTemperature, maxTemperature; /* K */
+    uint64_t steps;
+    double time;               /* s, of motion */
+    size_t memoryBytes;        /* taken from the allocator now */
+} thawCounters;
+THAW_API void thawWorld_GetCounters(const thawWorld* world, thawCounters* out);
+
+/* Wall-clock cost of the last step, ms. Never feeds back into state except through thawBudget_milliseconds. */
+typedef struct thawProfile {
+    float step;
+    float stage[thawStage_count];
+} thawProfile;
+THAW_API void thawWorld_GetProfile(const thawWorld* world, thawProfile* out);
+
+/* Hash of everything that the next step depends on. Equal for equal inputs and plans at any number of threads. */
+THAW_API uint64_t thawWorld_GetStateHash(const thawWorld* world);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace thaw {
+
+// Wendland C2 in 3D with support h: W(r) = 21/(2 pi h^3) (1-q)^4 (1+4q), q = r/h. Chosen over the cubic spline because
+// it does not clump (3-15 % clumped pairs against 0), and its W'/r needs no division: W'(r)/r = -210/(pi h^5) (1-q)^3.
+inline constexpr float kSupport = 2.2f;            // support in particle spacings: 32 neighbours, 0.6 % moment bias
+inline constexpr float kWendland = 3.34225380493f; // 21 / (2 pi)
+inline constexpr float kWendlandGradient = 66.8450760986f; // 210 / pi
+
+// Sum of V W over the infinite cubic lattice at kSupport: every density is divided by it. Tested against the sum
+// itself.
+float latticeSum();
+// Shear moment of the projected pairwise viscosity on that lattice, as a share of nominal (0.7408): mu is divided by
+// it.
+float shearMoment();
+// Jacobi coefficient 1 / sum |grad C|^2 of an interior particle, for spacing 1 and density 1. Times rho dx^2 for
+// others.
+float bulkStiffness();
+
+// Half-space integrals at signed distance d of a wall, by q = d / h in [-1, 1]: how much of the kernel's support lies
+// in the wall.
+struct WallTable {
+    static constexpr int kSize = 512;
+    float fraction[kSize + 1]; // volume share inside the wall, before dividing by latticeSum
+    float gradient[kSize + 1]; // -d(fraction)/dq
+    float tangent[kSize + 1];  // no-slip viscous weight, tangential, times z of the mirrored velocity
+    float normal[kSize + 1];   // no-slip viscous weight, normal
+    static float lookup(const float* table, float q) {
+        float f = (q + 1) * (0.5f * kSize);
+        if (f >= kSize) return 0;
+        if (f <= 0) return table[0];
+        int i = static_cast<int>(f);
+        float a = f - static_cast<float>(i);
+        return table[i] * (1 - a) + table[i + 1] * a;
+    }
+};
+const WallTable& wallTable();
+
+} // namespace thaw

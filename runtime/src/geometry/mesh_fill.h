@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "base/types.h"
+#include "thaw/thaw.h"
+
+#include <string>
+#include <vector>
+
+namespace thaw {
+
+// A triangle mesh after welding and checking; double-checked orientation. Offline code: std containers are fine.
+struct CleanMesh {
+    std::vector<Vec3> vertices;    // world units, transform applied
+    std::vector<uint32_t> indices; // three per triangle, outward
+    Box bounds;
+    thawMeshReport report{};
+};
+
+// Welds, drops degenerate triangles, orients outward. `to` maps the mesh into the world. On failure returns badMesh or
+// invalidArgument and `message` names what is wrong (vertex number, value, open edges, volume).
+thawResult cleanMesh(const thawMesh& mesh, const Transform& to, CleanMesh& out, std::string& message);
+
+// Signed distance of a mesh on a regular grid, negative inside, trilinear between nodes. The sign comes from the
+// generalised winding number (Jacobson et al. 2013; tree-accelerated after Barill et al. 2018), so small holes do not
+// matter.
+struct DistanceGrid {
+    Vec3 origin;    // of node (0,0,0)
+    float cell = 0; // m
+    int nx = 0, ny = 0, nz = 0;
+    std::vector<float> values; // nx*ny*nz, x fastest; exact within the band, a lower bound of |d| outside of it
+    // Distance in m and unit gradient at p; outside the grid the distance to the grid's box is added.
+    float sample(Vec3 p, Vec3& gradient) const;
+    float sample(Vec3 p) const;
+};
+// Grid that covers the bounds grown by `margin`. cell is enlarged when it would need more than maxNodes nodes.
+DistanceGrid makeDistanceGrid(const CleanMesh& mesh, float cell, float margin, size_t maxNodes, Tasks& tasks);
+
+// Positions that fill the inside at `spacing`: a body-centred or cubic lattice inside, the outermost layer moved so
+// that it lies spacing/2 below the surface (checked: within half a spacing everywhere), relaxed so that no two are
+// closer than 0.75 spacing. Total volume follows: each particle's volume is mesh volume / count (returned).
+// Deterministic. Refuses (badMesh) when nothing fits, naming volume and spacing; (capacity) when more than maxParticles
+// are needed, naming both.
+thawResult fillMesh(const CleanMesh& mesh, float spacing, int maxParticles, Tasks& tasks, std::vector<Vec3>& out,
+                    float& particleVolume, std::string& message);
+
+} // namespace thaw

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "base/types.h"
+#include "geometry/colliders.h"
+#include "neighbors/neighbors.h"
+#include "particles/material.h"
+#include "particles/particles.h"
+
+namespace thaw {
+
+struct MotionFrame {
+    Particles& particles;
+    Neighbors& neighbors;    // built and weighed at the positions of now
+    const float* volume;     // per row, m^3, padded
+    const float* invDensity; // per row, 1/rho for movers, 0 for fixed, padded
+    const Material* materials;
+    const Collider* colliders;
+    int colliderCount;
+    Tasks& tasks;
+    float dt;     // s, of this sub-step
+    int subSteps; // of this step, for the density feedback (beta falls with them)
+    Vec3 gravity;
+    float spacing; // m, of level 0
+    int pressureIterations, viscosityIterations;
+};
+
+struct MotionStats {
+    int viscosityIterations = 0;
+    bool iterationsClipped = false, velocityClamped = false;
+    float maxSpeed = 0, maxCompression = 0, meanCompression = 0, apparentViscosity = 0;
+};
+
+// The motion of everything that is not fixed, for one sub-step: velocity-based constant-density solve with the geometry
+// frozen at its start (scheme B of the measurements), warm-started pressure before an implicit viscosity, contacts
+// inside the solve. Call in this order; each is one stage of the step.
+class Motion {
+public:
+    explicit Motion(Allocator& allocator);
+
+    void begin(const MotionFrame& f);     // walls near each mover, compression, Jacobi coefficients, warm pressure
+    void forces(const MotionFrame& f);    // gravity, cohesion, adhesion, warm pressure applied
+    void viscosity(const MotionFrame& f); // conjugate gradients with the pressure fold and no-slip walls
+    void pressure(const MotionFrame& f);  // Jacobi iterations, walls held inside
+    void move(const MotionFrame& f);      // positions: swept when fast, minimum distance, out of walls
+    const MotionStats& stats() const { return stats_; }
+
+    // How many sub-steps depth (G = g H dt^2 / dx^2) and approach speed ask for in a step of dt, at most `limit`.
+    static int subStepsWanted(const Particles& particles, float dt, Vec3 gravity, float spacing, int limit);
+
+private:
+    MotionStats stats_;
+};
+
+} // namespace thaw

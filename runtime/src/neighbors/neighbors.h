@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/tasks.h"
+#include "particles/particles.h"
+
+namespace thaw {
+
+// Neighbour lists of all particles, frozen at the positions of the last build.
+//
+// SELL-8: a group is 8 consecutive rows, one per SIMD lane. Entry k of lane l of group g is at first[g] + 8 k + l,
+// 0 <= k < width[g]. An entry is the byte offset 16 j of neighbour j (so that position, velocity, ... are one aligned
+// 16-byte load; a float array is read at offset / 4). Unused entries name the dummy row `count`, with gradient 0. A
+// particle is not in its own list. Two particles are neighbours when r < (h_i + h_j) / 2. Entries of a lane are in
+// ascending order of j. Rows that are movers come first (Particles); groups [0, moverGroups) cover them, the last one
+// may hold fixed rows too.
+class Neighbors {
+public:
+    explicit Neighbors(Allocator& allocator);
+
+    // Sorts the rows: movers first, then by cell, then by the order they had (stable). Permutes every particle field.
+    void sort(Particles& particles, Tasks& tasks);
+    // Builds the lists from the sorted rows. Grows its own memory when needed.
+    void build(const Particles& particles, Tasks& tasks);
+    // One pass over all pairs: fills gradient, volumeFraction, gradientSum, stiffnessSum (Wendland C2 at h = (h_i +
+    // h_j) / 2, divided by latticeSum()). volume[i] and invDensity[i] (1 / rho for movers, 0 for fixed) come from the
+    // caller and are padded like the particle arrays.
+    void weigh(const Particles& particles, const float* volume, const float* invDensity, Tasks& tasks);
+
+    int groupCount = 0, moverGroups = 0;
+    Array<uint32_t> entries; // see above
+    Array<float> gradient;   // per entry: V_j W'(r) / (r s0), <= 0; the gradient of the pair is this times (x_i - x_j)
+    Array<uint32_t> first;   // per group
+    Array<uint32_t> width;   // per group
+    Array<float> volumeFraction; // per particle: sum of V_j W / s0, itself included; 1 in the interior of the lattice
+    Array<Vec4> gradientSum;     // per particle: xyz sum of V_j grad W / s0; w sum of V_j |grad W / s0|^2 invDensity_j
+    int maxNeighbors = 0;        // of the last build
+    float meanNeighbors = 0;
+    bool clipped = false; // a row had more neighbours than kMaxNeighbors; the farthest in row order were left out
+    static constexpr int kMaxNeighbors = 256;
+
+    // Calls f(j) for every row j whose position may be within `radius` of p (whole cells), in ascending cell order; the
+    // cells are those of the last sort. radius at most the largest support.
+    template <class F> void forCandidates(Vec3 p, float radius, F&& f) const;
+
+private:
+    struct Grid {
+        Vec3 origin;
+        float inverseCell = 0;
+        int nx = 0, ny = 0, nz = 0;
+    } grid_;
+    Array<uint32_t> cellStart_[2]; // movers, fixed: per cell the first row; one more than cells
+    Array<uint32_t> cellOf_;       // per row
+};
+
+} // namespace thaw

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/math.h"
+#include "thaw/thaw.h"
+
+namespace thaw {
+
+// A validated material with what the inner loops need ready. The one thermal state is the specific enthalpy H in J/kg:
+//   H < 0: solid, T = Ts + H / cs;  0..L: melting, T from solidus to liquidus;  H > L: liquid, T = Tl + (H - L) / cl.
+// With a melting range and latentHeat 0, the range still needs heat: L is at least the mean specific heat times the
+// range.
+struct Material {
+    thawMaterialDef def{};
+    double latent = 0; // J/kg between solidus and liquidus, > 0 or exactly 0 when solidus == liquidus
+    float logViscositySolid = 0, logViscosityLiquid = 0;
+
+    explicit Material(const thawMaterialDef& d) : def(d) {
+        double range = static_cast<double>(d.liquidus) - d.solidus;
+        latent = d.latentHeat + 0.5 * range * (static_cast<double>(d.specificHeatSolid) + d.specificHeatLiquid);
+        logViscositySolid = detLog(d.viscositySolid), logViscosityLiquid = detLog(d.viscosityLiquid);
+    }
+    Material() = default;
+
+    float temperature(double H) const {
+        if (H < 0) return static_cast<float>(def.solidus + H / def.specificHeatSolid);
+        if (H >= latent) return static_cast<float>(def.liquidus + (H - latent) / def.specificHeatLiquid);
+        return static_cast<float>(def.solidus + (static_cast<double>(def.liquidus) - def.solidus) * (H / latent));
+    }
+    float liquidFraction(double H) const {
+        if (H <= 0) return 0;
+        return H >= latent ? 1.0f : static_cast<float>(H / latent);
+    }
+    double enthalpy(float T) const {
+        if (T < def.solidus) return (static_cast<double>(T) - def.solidus) * def.specificHeatSolid;
+        if (T > def.liquidus || def.liquidus == def.solidus)
+            return T > def.liquidus ? latent + (static_cast<double>(T) - def.liquidus) * def.specificHeatLiquid : 0.0;
+        return latent * (static_cast<double>(T) - def.solidus) / (static_cast<double>(def.liquidus) - def.solidus);
+    }
+    // Lowest possible enthalpy: 0 K.
+    double enthalpyFloor() const { return -static_cast<double>(def.solidus) * def.specificHeatSolid; }
+    // Log blend: a linear one keeps mush solid until it is all but molten.
+    float viscosity(float phi) const { return detExp((1 - phi) * logViscositySolid + phi * logViscosityLiquid); }
+    float conductivity(float phi) const { return (1 - phi) * def.conductivitySolid + phi * def.conductivityLiquid; }
+};
+
+} // namespace thaw

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/memory.h"
+#include "base/types.h"
+
+#include <cstdint>
+
+namespace thaw {
+
+enum ParticleFlag : uint8_t {
+    kFixed = 1 << 0,   // solid and held
+    kSurface = 1 << 1, // exposed to air
+};
+
+// Every per-particle quantity that lives from step to step: one list, used by sort, hash and removal alike.
+//   type, name: meaning
+#define THAW_PARTICLE_FIELDS(X)                                                                                        \
+    X(Vec4, position) /* xyz m; w support radius h = kSupport * spacing of its level, m */                             \
+    X(Vec4, velocity) /* xyz m/s; w mass kg */                                                                         \
+    X(Vec4,                                                                                                            \
+      velocityChange)   /* xyz m/s, what the last viscosity solve did (its warm start); w viscosity multiplier >= 1 */ \
+    X(Vec4, normal)     /* xyz outward unit normal, w exposed area m^2; zero inside */                                 \
+    X(double, enthalpy) /* J/kg above the material's solidus; double: a frame adds 1e-8 of it */                       \
+    X(float, temperature)    /* K, from enthalpy */                                                                    \
+    X(float, liquidFraction) /* 0..1, from enthalpy */                                                                 \
+    X(float, pressure)       /* Pa, warm start of the next step */                                                     \
+    X(float, stiffness)      /* Jacobi coefficient of the last step, 0 when there was none */                          \
+    X(float, irradiance) /* W/m^2 that reach it from all sources, times visibility and cosine; refreshed by rays */    \
+    X(uint32_t, id)      /* stable, never reused */                                                                    \
+    X(uint16_t, body)                                                                                                  \
+    X(uint8_t, material)                                                                                               \
+    X(uint8_t, level) /* mass 2^level of the finest */                                                                 \
+    X(uint8_t, flags)
+
+// Structure of arrays. Rows are kept sorted: the movers [0, moverCount) first, then the fixed [moverCount, count), each
+// in cell order. kPadding rows after the last one are dummies far away with no mass, so that groups of 8 may read past
+// the end.
+struct Particles {
+    static constexpr int kPadding = 16;
+    static constexpr float kFar = 1e15f; // squares stay finite
+
+    explicit Particles(Allocator& a)
+        :
+#define X(type, name) name(a), name##Back(a),
+          THAW_PARTICLE_FIELDS(X)
+#undef X
+              capacity(0) {
+    }
+
+    int count = 0, moverCount = 0;
+
+#define X(type, name) Array<type> name, name##Back; // Back: where the sort writes before it swaps
+    THAW_PARTICLE_FIELDS(X)
+#undef X
+    int capacity;
+
+    void allocate(int maxParticles) {
+        capacity = maxParticles;
+        size_t n = static_cast<size_t>(maxParticles) + kPadding;
+#define X(type, name) name.resize(n), name##Back.resize(n);
+        THAW_PARTICLE_FIELDS(X)
+#undef X
+        pad();
+    }
+    // Writes the dummies after the last row.
+    void pad() {
+        for (int i = count; i < count + kPadding; ++i) {
+            size_t k = static_cast<size_t>(i);
+#define X(type, name) name[k] = type{};
+            THAW_PARTICLE_FIELDS(X)
+#undef X
+            position[k] = {kFar, kFar, kFar, 0};
+            flags[k] = kFixed;
+        }
+    }
+    bool fixed(int i) const { return flags[static_cast<size_t>(i)] & kFixed; }
+};
+
+} // namespace thaw
