@@ -1,21 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the thaw authors
 # SPDX-License-Identifier: MIT
 #
-# cmake -DOUT_CPP= -DOUT_HEADER= -DSHADERS=a;b -P embed_shaders.cmake
-# Writes a C++ file that holds the text of the shaders, and the header of the one function that gives it out.
+# cmake -DOUT_CPP= -DSHADERS=a;b -P embed_shaders.cmake
+# Writes the C++ file that holds the text of the shaders and defines view/shader_sources.h.
 set(head "// SPDX-FileCopyrightText: 2026 the thaw authors\n// SPDX-License-Identifier: MIT\n// Generated from shaders/ by editor/cmake/embed_shaders.cmake.\n")
-file(WRITE ${OUT_HEADER} "${head}#pragma once
-
-namespace thaw::view {
-
-// Text of a file in shaders/, by its name (\"surface.vert\"); nullptr when there is none of that name. Static storage.
-const char* shaderSource(const char* name);
-// Name of the n-th shader, in alphabetical order; nullptr when there are fewer. Static storage.
-const char* shaderName(int n);
-
-} // namespace thaw::view
-")
-
 set(entries "")
 set(count 0)
 list(SORT SHADERS)
@@ -53,10 +41,6 @@ const char* shaderSource(const char* name) {
     for (const Entry& entry : kEntries)
         if (entry.name && std::strcmp(entry.name, name) == 0) return reinterpret_cast<const char*>(entry.text);
     return nullptr;
-}
-
-const char* shaderName(int n) {
-    return n >= 0 && n < ${count} ? kEntries[n].name : nullptr;
 }
 
 } // namespace thaw::view
