@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "base/kernel.h"
+
+#include <cmath>
+
+namespace thaw {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kSigma = 21 / (2 * kPi);
+
+// Shape of the kernel for support 1.
+double shape(double q) {
+    if (q >= 1) return 0;
+    double a = 1 - q;
+    return kSigma * a * a * a * a * (1 + 4 * q);
+}
+// -W'(q) / q: no division, so q = 0 is nothing special.
+double slope(double q) {
+    if (q >= 1) return 0;
+    double a = 1 - q;
+    return 20 * kSigma * a * a * a;
+}
+
+struct LatticeConstants {
+    float sum, shear, stiffness;
+
+    LatticeConstants() {
+        const double h = static_cast<double>(kSupport), h3 = h * h * h;
+        const int reach = 3;
+        double s = 0, projected = 0, squares = 0;
+        for (int i = -reach; i <= reach; ++i)
+            for (int j = -reach; j <= reach; ++j)
+                for (int k = -reach; k <= reach; ++k) {
+                    double r2 = i * i + j * j + k * k, q = std::sqrt(r2) / h;
+                    s += shape(q) / h3;
+                    if (r2 == 0) continue;
+                    double g = slope(q) / (h3 * h * h); // -W'(r) / r
+                    // Shear flow v_x = z: force moment of the projected pair viscosity
+                    // 10 mu V^2 (-W'/r) / (r^2 + 0.01 h^2) (v_ij . x_ij) x_ij; it should be 2 mu.
+                    projected += 10 * g * (i * i) * (k * k) / (r2 + 0.01 * h * h);
+                    squares += g * g * r2;
+                }
+        sum = static_cast<float>(s);
+        shear = static_cast<float>(projected / 2);
+        stiffness = static_cast<float>(s * s / squares);
+    }
+};
+
+const LatticeConstants& lattice() {
+    static const LatticeConstants constants;
+    return constants;
+}
+
+// Everything behind the plane z = q counts, q in units of h. First the integral over the disc that a plane cuts out of
+// the support, then the sum over the planes from the far end.
+struct WallTables : WallTable {
+    WallTables() {
+        static_assert(kSize % 2 == 0);
+        const int rings = 300;
+        double area[kSize + 1], tangential[kSize + 1], along[kSize + 1];
+        for (int a = 0; a <= kSize; ++a) {
+            double z = -1 + 2.0 * a / kSize, rim = std::sqrt(std::fmax(0.0, 1 - z * z));
+            double w = 0, t = 0, n = 0;
+            for (int b = 0; b < rings; ++b) {
+                double s = (b + 0.5) / rings * rim, r2 = z * z + s * s, r = std::sqrt(r2);
+                double ring = 2 * kPi * s * rim / rings, k = 10 * slope(r) / (r2 + 0.01);
+                w += shape(r) * ring;
+                t += k * s * s * 0.5 * ring;
+                n += k * z * z * ring;
+            }
+            area[a] = w, tangential[a] = t, along[a] = n;
+        }
+        double f = 0, t = 0, n = 0;
+        fraction[kSize] = gradient[kSize] = tangent[kSize] = normal[kSize] = 0;
+        const double dz = 2.0 / kSize;
+        for (int a = kSize - 1; a >= 0; --a) {
+            double z = -1 + (a + 0.5) * dz;
+            f += 0.5 * (area[a] + area[a + 1]) * dz;
+            t += 0.5 * (tangential[a] + tangential[a + 1]) * z * dz;
+            n += 0.5 * (along[a] + along[a + 1]) * dz;
+            fraction[a] = static_cast<float>(f);
+            gradient[a] = static_cast<float>(area[a]);
+            tangent[a] = static_cast<float>(t);
+            normal[a] = static_cast<float>(n);
+        }
+    }
+};
+
+} // namespace
+
+float latticeSum() { return lattice().sum; }
+float shearMoment() { return lattice().shear; }
+float bulkStiffness() { return lattice().stiffness; }
+
+const WallTable& wallTable() {
+    static const WallTables tables;
+    return tables;
+}
+
+} // namespace thaw
