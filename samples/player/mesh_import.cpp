@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "mesh.h"
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace thaw::scene {
+
+namespace {
+constexpr size_t kMaxFileBytes = size_t(1) << 30;
+constexpr size_t kMaxTriangles = 100'000'000;
+constexpr int kMaxNodeDepth = 256;
+constexpr size_t kMaxNodes = 100'000;
+
+struct VertexKey {
+    std::array<uint32_t, 3> bits;
+    bool operator==(const VertexKey&) const = default;
+};
+struct VertexHash {
+    size_t operator()(const VertexKey& key) const {
+        uint64_t h = 0x9e3779b97f4a7c15ull;
+        for (uint32_t b : key.bits) h = (h ^ b) * 0xff51afd7ed558ccdull, h ^= h >> 33;
+        return size_t(h);
+    }
+};
+
+// Joins every instance of every mesh; welds vertices that are equal to the bit (formats such as STL repeat them).
+struct Joiner {
+    const aiScene& source;
+    TriMesh out;
+    std::unordered_map<VertexKey, uint32_t, VertexHash> known;
+    size_t nodes = 0;
+
+    uint32_t weld(const aiVector3D& p) {
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            throw std::runtime_error("has a vertex that is not finite");
+        const float v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; // -0 becomes 0
+        const VertexKey key{{std::bit_cast<uint32_t>(v[0]), std::bit_cast<uint32_t>(v[1]), std::bit_cast<uint32_t>(v[2])}};
+        const auto [it, fresh] = known.try_emplace(key, uint32_t(out.vertexCount()));
+        if (fresh) out.vertices.insert(out.vertices.end(), v, v + 3);
+        return it->second;
+    }
+
+    void addMesh(const aiMesh& mesh, const aiMatrix4x4& transform) {
+        const bool mirrored = aiMatrix3x3(transform).Determinant() < 0.0f;
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+            const aiFace& face = mesh.mFaces[f];
+            if (face.mNumIndices != 3) continue; // points and lines enclose nothing
+            uint32_t corner[3];
+            for (unsigned k = 0; k < 3; ++k) {
+                if (face.mIndices[k] >= mesh.mNumVertices) throw std::runtime_error("has a face that names no vertex");
+                corner[k] = weld(transform * mesh.mVertices[face.mIndices[k]]);
+            }
+            if (mirrored) std::swap(corner[1], corner[2]);
+            out.addTriangle(corner[0], corner[1], corner[2]);
+            if (out.triangleCount() > kMaxTriangles) throw std::runtime_error("has more than 100000000 triangles");
+        }
+    }
+
+    void addNode(const aiNode& node, const aiMatrix4x4& parent, int depth) {
+        if (depth > kMaxNodeDepth || ++nodes > kMaxNodes) throw std::runtime_error("has too many nodes");
+        const aiMatrix4x4 transform = parent * node.mTransformation;
+        for (unsigned i = 0; i < node.mNumMeshes; ++i)
+            if (node.mMeshes[i] < source.mNumMeshes) addMesh(*source.mMeshes[node.mMeshes[i]], transform);
+        for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(*node.mChildren[i], transform, depth + 1);
+    }
+};
+
+std::string oneLine(std::string text) {
+    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
+    if (text.size() > 160) text = text.substr(0, 157) + "...";
+    return text;
+}
+} // namespace
+
+TriMesh importMesh(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status)) throw std::runtime_error("no such file");
+    if (!fs::is_regular_file(status)) throw std::runtime_error("is not a file");
+    const auto bytes = fs::file_size(path, error);
+    if (error) throw std::runtime_error("cannot be read");
+    if (bytes == 0) throw std::runtime_error("is empty");
+    if (bytes > kMaxFileBytes) throw std::runtime_error("is larger than 1 GiB");
+
+    std::string extension = fs::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(c >= 'A' && c <= 'Z' ? c + 32 : c); });
+    constexpr const char* kKnown[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
+    if (std::none_of(std::begin(kKnown), std::end(kKnown), [&](const char* k) { return extension == k; }))
+        throw std::runtime_error("unknown mesh format '" + oneLine(extension) + "' (known: obj, ply, stl, gltf, glb)");
+
+    Assimp::Importer importer;
+    // Only shapes matter: what else a file holds is dropped before it is processed.
+    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
+                                aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+                                    aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+                                    aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
+    const aiScene* source = nullptr;
+    try {
+        source = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_Triangulate);
+    } catch (const std::exception& e) { // some importers let theirs through
+        throw std::runtime_error(oneLine(std::string("cannot be read: ") + e.what()));
+    }
+    if (!source || !source->mRootNode) {
+        const std::string reason = importer.GetErrorString();
+        throw std::runtime_error(oneLine("cannot be read: " + (reason.empty() ? "not a mesh" : reason)));
+    }
+    Joiner joiner{*source, {}, {}, 0};
+    joiner.addNode(*source->mRootNode, aiMatrix4x4(), 0);
+    if (joiner.out.indices.empty()) throw std::runtime_error("holds no triangles");
+    return std::move(joiner.out);
+}
+
+} // namespace thaw::scene

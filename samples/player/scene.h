@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+//
+// What a scene file holds, how it is read and written, and how it becomes a world. Uses thaw.h and the standard library
+// only, so that the player and the editor share it. The format is described in samples/scenes/README.md.
+#pragma once
+
+#include "mesh.h"
+#include "thaw/thaw.h"
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace thaw::scene {
+
+constexpr int kSceneVersion = 1;
+constexpr int kMaxParticles = 4'000'000; // of thawWorldDef.maxParticles
+
+// Bad input. what() is one line: "FILE: at /json/pointer: what is wrong".
+struct InputError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+enum class ShapeType { plane, box, sphere, cylinder, cone, torus, mesh };
+
+struct Shape {
+    ShapeType type = ShapeType::box;
+    thawVec3 size{0.05f, 0.05f, 0.05f}; // box: edge lengths in m, range 1e-5..1e3
+    float radius = 0.025f;              // sphere, cylinder, cone, torus; m, range 1e-5..1e3
+    float height = 0.05f;               // cylinder, cone; m, range 1e-5..1e3
+    float tubeRadius = 0.008f;          // torus; m, smaller than radius
+    std::string meshFile;               // mesh: path, relative to the scene's folder
+};
+
+struct Placement {
+    thawVec3 position{}; // m, each within 1e4
+    thawQuat rotation{0.0f, 0.0f, 0.0f, 1.0f};
+    float scale = 1.0f; // range 1e-6..1e6
+};
+
+struct WorldSettings {
+    float particleSpacing = 0.002f;      // m, range 1e-4..1
+    int maxParticles = 0;                // range 8..4000000; 0: as many as the bodies need and a tenth more
+    thawVec3 gravity{0.0f, -9.81f, 0.0f}; // m/s^2, each within 1000
+    float ambientTemperature = 293.15f;  // K, range 100..10000
+    float convection = 10.0f;            // W/(m^2 K), range 0..1e4
+    float thermalTimeScale = 1.0f;       // range 0..1e5
+};
+
+struct Material {
+    std::string name;
+    thawMaterialPreset preset = thawMaterial_wax;
+    thawMaterialDef def{}; // filled by thawInitMaterialDef, then changed
+};
+
+struct Body {
+    std::string name;
+    Shape shape; // not a plane
+    Placement placement;
+    int material = 0;         // index into Scene::materials
+    float temperature = NAN;  // K, range 100..10000; NaN: ambient
+};
+
+struct Collider {
+    std::string name;
+    Shape shape;
+    Placement placement;
+    bool adhesive = true;
+    bool occluder = true;
+    bool visible = true;
+    thawVec3 color{0.35f, 0.33f, 0.31f}; // linear RGB 0..1
+};
+
+enum class SourceVisual { none, flame, glow };
+
+struct HeatSource {
+    std::string name;
+    thawVec3 position{};    // m
+    float power = 20.0f;    // W, range -1e6..1e6
+    float radius = 0.005f;  // m, range 1e-4..10
+    bool enabled = true;
+    SourceVisual visual = SourceVisual::glow;
+};
+
+// Seen only: a wick, a spoon. Takes no part in the simulation.
+struct Prop {
+    std::string name;
+    Shape shape; // not a plane
+    Placement placement;
+    thawVec3 color{0.2f, 0.2f, 0.2f};
+};
+
+struct Camera {
+    thawVec3 eye{0.0f, 0.15f, 0.35f};
+    thawVec3 target{0.0f, 0.05f, 0.0f};
+    float fieldOfViewDegrees = 35.0f; // vertical, range 1..150
+};
+
+struct Look {
+    thawVec3 sunDirection{0.5f, 0.8f, 0.4f}; // toward the sun; unit length after loading
+    float exposure = 1.0f;                   // range 0.01..100
+};
+
+struct Defaults {
+    float seconds = 10.0f;           // of motion, range 0.01..3600
+    float budgetMilliseconds = 4.0f; // range 0.05..1e4
+    std::vector<float> captures;     // s, at most 1000
+};
+
+struct Scene {
+    std::string name = "untitled";
+    std::string file;      // it came from, for messages; "" when made in memory
+    std::string directory; // relative mesh files start here; "" is the current one
+    WorldSettings world;
+    std::vector<Material> materials;
+    std::vector<Body> bodies;
+    std::vector<Collider> colliders;
+    std::vector<HeatSource> heatSources;
+    std::vector<Prop> props;
+    Camera camera;
+    Look look;
+    Defaults defaults;
+};
+
+// Reads and checks a scene. Throws InputError. Mesh files are not opened.
+Scene loadScene(const std::string& path);
+// The same from text; file is used in messages, directory for mesh files.
+Scene parseScene(const std::string& text, const std::string& file, const std::string& directory);
+// The scene as text that parseScene reads back to the same values, bit for bit.
+std::string writeScene(const Scene& scene);
+// Writes it to a file. Throws std::runtime_error when that fails.
+void saveScene(const Scene& scene, const std::string& path);
+
+const char* shapeName(ShapeType type);
+// Plain text on one line: control characters become spaces, long text is cut.
+std::string oneLine(const std::string& text, size_t limit = 120);
+// Shortest decimal that reads back as the same float.
+std::string shortest(float value);
+
+// Triangles of everything that has some; reads mesh files. Indices match the scene's vectors.
+struct SceneMeshes {
+    std::vector<TriMesh> bodies, colliders, props; // empty for planes
+};
+// Throws InputError that names the place in the scene.
+SceneMeshes loadMeshes(const Scene& scene);
+TriMesh makeShape(const Shape& shape, const std::string& directory);
+
+// Particles that a mesh will hold, from its volume.
+double estimateParticles(const TriMesh& mesh, float scale, float spacing);
+
+struct WorldDeleter {
+    void operator()(thawWorld* world) const { thawDestroyWorld(world); }
+};
+
+// A scene made into a world. Ids match the scene's vectors.
+struct SceneWorld {
+    std::unique_ptr<thawWorld, WorldDeleter> world;
+    std::vector<thawMaterialId> materials;
+    std::vector<thawBodyId> bodies;
+    std::vector<thawMeshReport> bodyReports;
+    std::vector<thawColliderId> colliders;
+    std::vector<thawMeshReport> colliderReports; // zero for what is not a mesh
+    std::vector<thawHeatSourceId> heatSources;
+};
+
+// Throws InputError when the scene asks for what cannot be, std::runtime_error when memory is short.
+// threads: range 1..64.
+SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads);
+
+} // namespace thaw::scene

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "scene.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+namespace thaw::scene {
+
+namespace {
+std::string messageAt(const Scene& scene, const std::string& place, const std::string& what) {
+    return oneLine(scene.file.empty() ? scene.name : scene.file, 400) + ": at " + place + ": " + oneLine(what, 300);
+}
+
+std::string placeOf(const char* list, size_t index) { return std::string("/") + list + "/" + std::to_string(index); }
+
+std::string rounded(double count) {
+    char text[40];
+    std::snprintf(text, sizeof text, count < 1e9 ? "%.0f" : "%.2g", count);
+    return text;
+}
+
+std::string resolved(const std::string& file, const std::string& directory) {
+    const std::filesystem::path path(file);
+    return path.is_absolute() || directory.empty() ? file : (std::filesystem::path(directory) / path).string();
+}
+
+// The particles that a scene asks for, refused here because the library would first take the memory for them.
+int capacityFor(const Scene& scene, const SceneMeshes& meshes) {
+    const float spacing = scene.world.particleSpacing;
+    double total = 0.0, largest = -1.0;
+    size_t largestBody = 0;
+    for (size_t b = 0; b < scene.bodies.size(); ++b) {
+        const double count = estimateParticles(meshes.bodies[b], scene.bodies[b].placement.scale, spacing);
+        total += count;
+        if (count > largest) largest = count, largestBody = b;
+    }
+    const int limit = scene.world.maxParticles ? scene.world.maxParticles : kMaxParticles;
+    if (total > limit) {
+        std::string hint;
+        const Bounds bounds = boundsOf(meshes.bodies[largestBody]);
+        const float scale = scene.bodies[largestBody].placement.scale;
+        const float extent = scale * std::max({bounds.upper.x - bounds.lower.x, bounds.upper.y - bounds.lower.y,
+                                               bounds.upper.z - bounds.lower.z});
+        if (extent > 2.0f)
+            hint = "; " + placeOf("bodies", largestBody) + " is " + shortest(extent) + " m long: if it is in millimetres give it scale 0.001";
+        // 1.02: room for the difference between a volume and a filled lattice.
+        const double needed = spacing * std::cbrt(1.02 * total / limit);
+        char enough[40];
+        std::snprintf(enough, sizeof enough, "%.3g", needed);
+        throw InputError(messageAt(scene, "/world/particleSpacing",
+                                   shortest(spacing) + " m gives about " + rounded(total) + " particles, the maximum is " +
+                                       std::to_string(limit) + " (" + enough + " m would do" + hint + ")"));
+    }
+    if (scene.world.maxParticles) return scene.world.maxParticles;
+    return int(std::clamp(1.1 * total + 256.0, 8.0, double(kMaxParticles)));
+}
+
+[[noreturn]] void refused(const Scene& scene, const std::string& place, thawResult result, const thawWorld* world) {
+    const std::string text = thawWorld_GetLastError(world);
+    const std::string what = text.empty() ? thawResultString(result) : text;
+    if (result == thawResult_outOfMemory || result == thawResult_internal)
+        throw std::runtime_error(messageAt(scene, place, what));
+    throw InputError(messageAt(scene, place, what));
+}
+} // namespace
+
+TriMesh makeShape(const Shape& shape, const std::string& directory) {
+    switch (shape.type) {
+    case ShapeType::plane: return {};
+    case ShapeType::box: return makeBox(shape.size);
+    case ShapeType::sphere: return makeSphere(shape.radius);
+    case ShapeType::cylinder: return makeCylinder(shape.radius, shape.height);
+    case ShapeType::cone: return makeCone(shape.radius, shape.height);
+    case ShapeType::torus: return makeTorus(shape.radius, shape.tubeRadius);
+    case ShapeType::mesh: return importMesh(resolved(shape.meshFile, directory));
+    }
+    return {};
+}
+
+SceneMeshes loadMeshes(const Scene& scene) {
+    SceneMeshes out;
+    auto load = [&](const char* list, size_t index, const Shape& shape) {
+        try {
+            return makeShape(shape, scene.directory);
+        } catch (const InputError&) {
+            throw;
+        } catch (const std::exception& e) {
+            throw InputError(messageAt(scene, placeOf(list, index) + "/mesh",
+                                       oneLine(shape.meshFile, 120) + ": " + e.what()));
+        }
+    };
+    for (size_t i = 0; i < scene.bodies.size(); ++i) out.bodies.push_back(load("bodies", i, scene.bodies[i].shape));
+    for (size_t i = 0; i < scene.colliders.size(); ++i)
+        out.colliders.push_back(load("colliders", i, scene.colliders[i].shape));
+    for (size_t i = 0; i < scene.props.size(); ++i) out.props.push_back(load("props", i, scene.props[i].shape));
+    return out;
+}
+
+double estimateParticles(const TriMesh& mesh, float scale, float spacing) {
+    return std::abs(volumeOf(mesh)) * std::pow(double(scale) / spacing, 3.0);
+}
+
+SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads) {
+    SceneWorld out;
+    thawWorldDef def;
+    thawInitWorldDef(&def);
+    const WorldSettings& w = scene.world;
+    def.particleSpacing = w.particleSpacing;
+    def.maxParticles = capacityFor(scene, meshes);
+    def.maxMaterials = std::max(1, int(scene.materials.size()));
+    def.maxBodies = std::max(1, int(scene.bodies.size()));
+    def.maxColliders = std::max(1, int(scene.colliders.size()));
+    def.maxHeatSources = std::max(1, int(scene.heatSources.size()));
+    def.gravity = w.gravity;
+    def.ambientTemperature = w.ambientTemperature;
+    def.convection = w.convection;
+    def.thermalTimeScale = w.thermalTimeScale;
+    def.tasks.workerCount = threads;
+    thawWorld* raw = nullptr;
+    char message[256] = "";
+    const thawResult made = thawCreateWorld(&def, &raw, message, sizeof message);
+    if (made == thawResult_outOfMemory)
+        throw std::runtime_error(messageAt(scene, "/world/maxParticles",
+                                           "not enough memory for " + std::to_string(def.maxParticles) + " particles"));
+    if (made != thawResult_ok)
+        throw InputError(messageAt(scene, "/world", *message ? message : thawResultString(made)));
+    out.world.reset(raw);
+
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        thawMaterialId id{};
+        const thawResult result = thawCreateMaterial(raw, &scene.materials[i].def, &id);
+        if (result != thawResult_ok) refused(scene, placeOf("materials", i), result, raw);
+        out.materials.push_back(id);
+    }
+    for (size_t i = 0; i < scene.colliders.size(); ++i) {
+        const Collider& c = scene.colliders[i];
+        thawColliderType type = thawCollider_mesh;
+        thawVec3 size{};
+        const float s = c.placement.scale;
+        if (c.shape.type == ShapeType::plane) type = thawCollider_plane;
+        if (c.shape.type == ShapeType::box) {
+            type = thawCollider_box;
+            size = {0.5f * s * c.shape.size.x, 0.5f * s * c.shape.size.y, 0.5f * s * c.shape.size.z};
+        }
+        if (c.shape.type == ShapeType::sphere) {
+            type = thawCollider_sphere;
+            size.x = s * c.shape.radius;
+        }
+        thawColliderDef d;
+        thawInitColliderDef(&d, type);
+        d.position = c.placement.position;
+        d.rotation = c.placement.rotation;
+        if (type == thawCollider_box) d.size = size;
+        if (type == thawCollider_sphere) d.size.x = size.x;
+        if (type == thawCollider_mesh) {
+            d.mesh = meshes.colliders[i].view();
+            d.scale = s;
+        }
+        d.adhesive = c.adhesive;
+        d.occluder = c.occluder;
+        thawColliderId id{};
+        thawMeshReport report{};
+        const thawResult result = thawCreateCollider(raw, &d, &id, &report);
+        if (result != thawResult_ok) refused(scene, placeOf("colliders", i), result, raw);
+        out.colliders.push_back(id);
+        out.colliderReports.push_back(report);
+    }
+    for (size_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& b = scene.bodies[i];
+        thawBodyDef d;
+        thawInitBodyDef(&d);
+        d.material = out.materials[size_t(b.material)];
+        d.mesh = meshes.bodies[i].view();
+        d.position = b.placement.position;
+        d.rotation = b.placement.rotation;
+        d.scale = b.placement.scale;
+        d.temperature = b.temperature;
+        thawBodyId id{};
+        thawMeshReport report{};
+        const thawResult result = thawCreateBody(raw, &d, &id, &report);
+        if (result != thawResult_ok) refused(scene, placeOf("bodies", i), result, raw);
+        out.bodies.push_back(id);
+        out.bodyReports.push_back(report);
+    }
+    for (size_t i = 0; i < scene.heatSources.size(); ++i) {
+        const HeatSource& h = scene.heatSources[i];
+        thawHeatSourceDef d;
+        thawInitHeatSourceDef(&d);
+        d.position = h.position;
+        d.power = h.power;
+        d.radius = h.radius;
+        d.enabled = h.enabled;
+        thawHeatSourceId id{};
+        const thawResult result = thawCreateHeatSource(raw, &d, &id);
+        if (result != thawResult_ok) refused(scene, placeOf("heatSources", i), result, raw);
+        out.heatSources.push_back(id);
+    }
+    return out;
+}
+
+} // namespace thaw::scene
