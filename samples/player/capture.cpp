@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace thaw::player {
+
+namespace {
+struct Options {
+    std::string scene, at, size = "960x540", view = "shaded", out, work = "4,4,12";
+    int threads = defaultThreads();
+    bool sheet = false, quiet = false;
+};
+
+int capture(const Options& o) {
+    const scene::Scene scene = scene::loadScene(o.scene);
+    std::vector<double> times;
+    if (!o.at.empty())
+        times = parseNumbers("--at", o.at, 0, 3600, "s", 1, 1000);
+    else
+        times.assign(scene.defaults.captures.begin(), scene.defaults.captures.end());
+    if (times.empty()) times = {0.0, double(scene.defaults.seconds)};
+    std::sort(times.begin(), times.end());
+    const PictureSize size = parseSize("--size", o.size);
+    const PictureView view = parseView("--view", o.view);
+    checkRange("--threads", o.threads, 1, 64);
+    // Work units and not milliseconds: the same pictures on a slow machine.
+    const thawBudget budget = makeBudget(scene, 0.0, o.work);
+
+    const scene::SceneMeshes meshes = scene::loadMeshes(scene);
+    const scene::SceneWorld built = scene::buildWorld(scene, meshes, o.threads);
+    makeFolder(o.out);
+    Pictures pictures(scene, meshes, size);
+    Report report;
+    report.name = scene::oneLine(scene.name, 80);
+    report.budget = budget;
+    report.limitMs = budget.milliseconds;
+    int frame = 0, index = 0;
+    {
+        const int frames = int(std::lround(times.back() / kFrameSeconds));
+        Progress progress(report.name, frames, o.quiet);
+        for (double time : times) {
+            for (const int due = int(std::lround(time / kFrameSeconds)); frame < due; ++frame) {
+                if (timedStep(built.world.get(), budget, report) & thawStep_refused)
+                    throw RunError(std::string("a step was refused: ") + thawWorld_GetLastError(built.world.get()));
+                progress.frame(frame + 1, report);
+            }
+            pictures.take(built.world.get(), view, formatted("t = %.2f s", frame * kFrameSeconds),
+                          (std::filesystem::path(o.out) / formatted("capture_%03d.png", index++)).string());
+        }
+    }
+    if (o.sheet) pictures.writeSheet((std::filesystem::path(o.out) / "sheet.png").string(), report.name);
+    std::printf("%s: %d pictures in %s, state hash %s\n", report.name.c_str(), index, scene::oneLine(o.out, 400).c_str(),
+                hashText(thawWorld_GetStateHash(built.world.get())).c_str());
+    return kExitOk;
+}
+} // namespace
+
+void addCapture(CLI::App& app, int& exitCode) {
+    CLI::App* command = app.add_subcommand("capture", "Pictures of a scene at given times, the same on every machine");
+    auto o = std::make_shared<Options>();
+    command->add_option("scene", o->scene, "Scene file (JSON)")->required();
+    command->add_option("--at", o->at, "Times of the game, s, with commas between (default: what the scene says)");
+    command->add_option("--size", o->size, "Pixels of a picture")->capture_default_str();
+    command->add_option("--view", o->view, "shaded, temperature or phase")->capture_default_str();
+    command->add_option("--out", o->out, "Folder for the pictures; made when it is not there")->required();
+    command->add_option("--work", o->work, "Work of a step: sub-steps,pressure,viscosity iterations")->capture_default_str();
+    command->add_option("--threads", o->threads, "Threads that take part, 1 to 64; changes no picture")->capture_default_str();
+    command->add_flag("--sheet", o->sheet, "Also sheet.png with all pictures");
+    command->add_flag("--quiet", o->quiet, "No progress on stderr");
+    command->callback([=, &exitCode] { exitCode = capture(*o); });
+}
+
+} // namespace thaw::player
