@@ -88,8 +88,9 @@ typedef struct thawQuat { float x, y, z, w; } thawQuat; /* unit quaternion; {0,0
 
 /* ---- hooks ------------------------------------------------------------------------------------------------------ */
 
-/* Memory of a world. Both NULL: the C++ runtime's. alloc must return memory aligned to `alignment` (a power of two, at most
- * 64) or NULL. May be called from the thread that calls thaw only. */
+/* Memory of what a world steps: particles, lists, scratch, surface. Both NULL: the C++ runtime's. alloc must return memory
+ * aligned to `alignment` (a power of two, at most 64) or NULL. Called from the thread that calls thaw only. Creating bodies and
+ * colliders also uses the C++ runtime while it works, and rays use Embree's own memory. */
 typedef struct thawAllocator {
     void* (*alloc)(size_t size, size_t alignment, void* user);
     void (*free)(void* memory, size_t size, void* user);

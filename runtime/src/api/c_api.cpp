@@ -1,0 +1,592 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+//
+// The C boundary: every argument is checked here, every exception stops here, every refusal leaves the world as it was
+// and a message that names the field and the value.
+#include "api/defs.h"
+#include "base/build.h"
+#include "thaw/thaw.h"
+#include "world/world.h"
+
+#include <cstdarg>
+#include <cstdio>
+#include <limits>
+#include <system_error>
+
+struct thawWorld {
+    explicit thawWorld(const thawWorldDef& def) : world(def) {}
+    thaw::World world;
+};
+
+namespace {
+
+using thaw::World;
+
+// Collects the first complaint about the arguments of one call.
+class Check {
+public:
+    bool ok() const { return result == thawResult_ok; }
+    void fail(thawResult r, const char* format, ...) __attribute__((format(printf, 3, 4))) {
+        if (!ok()) return;
+        result = r;
+        char text[512];
+        va_list args;
+        va_start(args, format);
+        std::vsnprintf(text, sizeof text, format, args);
+        va_end(args);
+        message = text;
+    }
+    // low <= value <= high; refuses NaN.
+    void range(const char* field, double value, double low, double high) {
+        if (!(value >= low && value <= high))
+            fail(thawResult_invalidArgument, "%s: must be in %g..%g, got %g", field, low, high, value);
+    }
+    void finite(const char* field, thawVec3 v, double limit) {
+        range(field, v.x, -limit, limit), range(field, v.y, -limit, limit), range(field, v.z, -limit, limit);
+    }
+    void rotation(const char* field, thawQuat q) {
+        const double l = double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z + double(q.w) * q.w;
+        if (!(l > 0.98 && l < 1.02))
+            fail(thawResult_invalidArgument, "%s: must be a unit quaternion, got (%g, %g, %g, %g)", field,
+                 static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z),
+                 static_cast<double>(q.w));
+    }
+    template <class Def> void initialised(const char* name, const Def* def) {
+        if (!def)
+            fail(thawResult_invalidArgument, "%s: is NULL", name);
+        else if (def->cookie != thaw::kDefCookie || def->structSize != sizeof(Def))
+            fail(thawResult_notInitialised, "%s: was not filled by its thawInit function", name);
+    }
+    void mesh(const char* field, const thawMesh& m) {
+        if (!m.vertices || m.vertexCount == 0)
+            fail(thawResult_badMesh, "%s: has no vertices", field);
+        else if (!m.indices || m.triangleCount == 0)
+            fail(thawResult_badMesh, "%s: has no triangles", field);
+        else if (m.vertexCount > 50000000)
+            fail(thawResult_capacity, "%s.vertexCount: at most 50000000, got %zu", field, m.vertexCount);
+        else if (m.triangleCount > 100000000)
+            fail(thawResult_capacity, "%s.triangleCount: at most 100000000, got %zu", field, m.triangleCount);
+    }
+
+    thawResult result = thawResult_ok;
+    std::string message;
+};
+
+thawResult report(World& w, thawResult result, const std::string& message) noexcept {
+    try {
+        w.lastError = message;
+    } catch (...) {
+        w.lastError.clear();
+    }
+    if (result != thawResult_ok && w.def.logger.log)
+        w.def.logger.log(thawLog_error, result, w.lastError.c_str(), w.def.logger.user);
+    return result;
+}
+
+// Runs f(Check&), which may return a result of its own; reports what it says.
+template <class F> thawResult guarded(thawWorld* world, F&& f) noexcept {
+    if (!world) return thawResult_invalidArgument;
+    try {
+        Check check;
+        f(world->world, check);
+        return check.ok() ? thawResult_ok : report(world->world, check.result, check.message);
+    } catch (const std::bad_alloc&) {
+        return report(world->world, thawResult_outOfMemory, "out of memory");
+    } catch (const std::exception& e) {
+        return report(world->world, thawResult_internal, e.what());
+    } catch (...) {
+        return report(world->world, thawResult_internal, "unknown fault");
+    }
+}
+
+template <class Id, class Slots> bool validId(const World& w, Id id, const Slots& slots) {
+    return id.index1 != 0 && id.world == w.tag && id.index1 <= slots.size() &&
+           slots[id.index1 - 1].generation == id.generation;
+}
+bool validBody(const World& w, thawBodyId id) { return validId(w, id, w.bodies) && w.bodies[id.index1 - 1].alive; }
+bool validCollider(const World& w, thawColliderId id) {
+    return validId(w, id, w.colliderSlots) && w.colliders[id.index1 - 1].alive;
+}
+bool validSource(const World& w, thawHeatSourceId id) {
+    return validId(w, id, w.sourceSlots) && w.sources[id.index1 - 1].alive;
+}
+
+void checkWorldDef(Check& c, const thawWorldDef* d) {
+    c.initialised("worldDef", d);
+    if (!c.ok()) return;
+    c.range("particleSpacing", d->particleSpacing, 1e-4, 1);
+    c.range("maxParticles", d->maxParticles, 8, 4000000);
+    c.range("maxMaterials", d->maxMaterials, 1, 255);
+    c.range("maxBodies", d->maxBodies, 1, 65535);
+    c.range("maxColliders", d->maxColliders, 1, 65535);
+    c.range("maxHeatSources", d->maxHeatSources, 1, 1024);
+    c.finite("gravity", d->gravity, 1000);
+    c.range("ambientTemperature", d->ambientTemperature, 0, 1e5);
+    c.range("convection", d->convection, 0, 1e4);
+    c.range("thermalTimeScale", d->thermalTimeScale, 0, 1e5);
+    if (!d->allocator.alloc != !d->allocator.free)
+        c.fail(thawResult_invalidArgument, "allocator: alloc and free must both be given or both be NULL");
+    if (!d->tasks.enqueue != !d->tasks.finish)
+        c.fail(thawResult_invalidArgument, "tasks: enqueue and finish must both be given or both be NULL");
+    c.range("tasks.workerCount", d->tasks.workerCount, 1, 64);
+}
+
+void checkMaterial(Check& c, const thawMaterialDef* d) {
+    c.initialised("materialDef", d);
+    if (!c.ok()) return;
+    c.range("density", d->density, 1, 3e4);
+    c.range("solidus", d->solidus, 1e-3, 1e5);
+    c.range("liquidus", d->liquidus, 1e-3, 1e5);
+    if (c.ok() && d->liquidus < d->solidus)
+        c.fail(thawResult_invalidArgument, "liquidus: must not be below solidus %g, got %g",
+               static_cast<double>(d->solidus), static_cast<double>(d->liquidus));
+    c.range("latentHeat", d->latentHeat, 0, 1e7);
+    c.range("specificHeatSolid", d->specificHeatSolid, 1, 1e5);
+    c.range("specificHeatLiquid", d->specificHeatLiquid, 1, 1e5);
+    c.range("conductivitySolid", d->conductivitySolid, 0, 1e4);
+    c.range("conductivityLiquid", d->conductivityLiquid, 0, 1e4);
+    c.range("viscositySolid", d->viscositySolid, 1e-3, 1e7);
+    c.range("viscosityLiquid", d->viscosityLiquid, 1e-4, 1e6);
+    c.range("absorptivity", d->absorptivity, 0, 1);
+    c.range("emissivity", d->emissivity, 0, 1);
+    c.range("cohesion", d->cohesion, 0, 20);
+    c.range("adhesion", d->adhesion, 0, 5);
+    c.range("setFraction", d->setFraction, 0, 1);
+    c.range("releaseFraction", d->releaseFraction, 0, 1);
+    if (c.ok() && d->setFraction > d->releaseFraction)
+        c.fail(thawResult_invalidArgument, "setFraction: must not be above releaseFraction %g, got %g",
+               static_cast<double>(d->releaseFraction), static_cast<double>(d->setFraction));
+    c.finite("color", d->color, 1e6);
+}
+
+void checkSource(Check& c, const thawHeatSourceDef* d) {
+    c.initialised("heatSourceDef", d);
+    if (!c.ok()) return;
+    c.finite("position", d->position, 1e6);
+    c.range("power", d->power, -1e6, 1e6);
+    c.range("radius", d->radius, 1e-4, 10);
+}
+
+void checkWork(Check& c, const thawWork& w) {
+    c.range("work.subSteps", w.subSteps, 1, 16);
+    c.range("work.pressureIterations", w.pressureIterations, 1, 64);
+    c.range("work.viscosityIterations", w.viscosityIterations, 1, 200);
+    c.range("work.heatInterval", w.heatInterval, 1, 8);
+    c.range("work.rayRefresh", w.rayRefresh, 0.05, 1);
+}
+
+void checkBudget(Check& c, const thawBudget& b) {
+    c.initialised("budget", &b);
+    if (!c.ok()) return;
+    if (b.mode != thawBudget_work && b.mode != thawBudget_milliseconds)
+        c.fail(thawResult_invalidArgument, "budget.mode: is not a thawBudgetMode, got %d", static_cast<int>(b.mode));
+    if (b.mode == thawBudget_milliseconds) c.range("budget.milliseconds", b.milliseconds, 1e-6, 1e4);
+    checkWork(c, b.work);
+}
+
+thawBudget defaultBudget() {
+    thawBudget b{};
+    b.structSize = sizeof b, b.cookie = thaw::kDefCookie;
+    b.mode = thawBudget_work;
+    b.milliseconds = 4;
+    b.work = {4, 4, 12, 1, 1.0f};
+    return b;
+}
+
+thaw::HeatSource toSource(const thawHeatSourceDef& d) {
+    return {{d.position.x, d.position.y, d.position.z}, d.power, d.radius, d.enabled, true};
+}
+
+} // namespace
+
+extern "C" {
+
+int thawGetVersion(void) { return THAW_VERSION; }
+
+const char* thawGetBuildString(void) { return thaw::buildString(); }
+
+const char* thawResultString(thawResult result) {
+    switch (result) {
+    case thawResult_ok:
+        return "ok";
+    case thawResult_invalidArgument:
+        return "invalid argument";
+    case thawResult_notInitialised:
+        return "definition not initialised";
+    case thawResult_staleId:
+        return "stale id";
+    case thawResult_outOfMemory:
+        return "out of memory";
+    case thawResult_capacity:
+        return "capacity reached";
+    case thawResult_badMesh:
+        return "mesh cannot be filled";
+    case thawResult_internal:
+        return "internal fault";
+    }
+    return "unknown";
+}
+
+const char* thawStepStatusString(uint32_t bit) {
+    switch (bit) {
+    case thawStep_refused:
+        return "an argument was refused";
+    case thawStep_iterationsClipped:
+        return "viscosity stopped at its iteration cap";
+    case thawStep_subStepsClipped:
+        return "fewer sub-steps than depth or speed asked for";
+    case thawStep_velocityClamped:
+        return "a particle was slowed to the speed limit";
+    case thawStep_neighborsClipped:
+        return "a neighbour list was full";
+    case thawStep_badParticlesRemoved:
+        return "a particle that was not finite was removed";
+    case thawStep_raysReduced:
+        return "only part of the rays was refreshed";
+    case thawStep_overBudget:
+        return "the step took longer than its budget";
+    default:
+        return "";
+    }
+}
+
+const char* thawStageName(thawStage stage) {
+    static constexpr const char* kNames[thawStage_count] = {"inputs",     "neighbors", "exposure",  "radiation",
+                                                            "conduction", "loss",      "phase",     "forces",
+                                                            "viscosity",  "pressure",  "collision", "stats"};
+    return stage >= 0 && stage < thawStage_count ? kNames[stage] : "";
+}
+
+const char* thawReasonString(thawReason reason) {
+    switch (reason) {
+    case thawReason_needed:
+        return "needed";
+    case thawReason_noParticles:
+        return "no particles";
+    case thawReason_nothingMoves:
+        return "nothing moves";
+    case thawReason_nothingChanged:
+        return "nothing changed";
+    case thawReason_noSource:
+        return "no source is on";
+    case thawReason_nothingExposed:
+        return "nothing is exposed";
+    case thawReason_equilibrium:
+        return "all at one temperature";
+    case thawReason_timeScaleZero:
+        return "thermalTimeScale is 0";
+    case thawReason_interval:
+        return "not due in this step";
+    }
+    return "";
+}
+
+void thawInitWorldDef(thawWorldDef* def) {
+    if (!def) return;
+    *def = thawWorldDef{};
+    def->structSize = sizeof *def, def->cookie = thaw::kDefCookie;
+    def->particleSpacing = 0.002f;
+    def->maxParticles = 32768;
+    def->maxMaterials = 16, def->maxBodies = 64, def->maxColliders = 64, def->maxHeatSources = 16;
+    def->gravity = {0, -9.81f, 0};
+    def->ambientTemperature = 293.15f;
+    def->convection = 10;
+    def->thermalTimeScale = 1;
+    def->tasks.workerCount = 1;
+}
+
+thawResult thawCreateWorld(const thawWorldDef* def, thawWorld** outWorld, char* message, size_t messageSize) {
+    auto say = [&](thawResult result, const char* text) {
+        if (message && messageSize > 0) std::snprintf(message, messageSize, "%s", text);
+        return result;
+    };
+    if (!outWorld) return say(thawResult_invalidArgument, "outWorld: is NULL");
+    *outWorld = nullptr;
+    try {
+        Check c;
+        checkWorldDef(c, def);
+        if (!c.ok()) return say(c.result, c.message.c_str());
+        *outWorld = new thawWorld(*def);
+        return say(thawResult_ok, "");
+    } catch (const std::bad_alloc&) {
+        return say(thawResult_outOfMemory, "out of memory: lower maxParticles");
+    } catch (const std::system_error& e) {
+        return say(thawResult_internal, e.what());
+    } catch (...) {
+        return say(thawResult_internal, "unknown fault");
+    }
+}
+
+void thawDestroyWorld(thawWorld* world) { delete world; }
+
+const char* thawWorld_GetLastError(const thawWorld* world) { return world ? world->world.lastError.c_str() : ""; }
+
+thawResult thawWorld_SetGravity(thawWorld* world, thawVec3 gravity) {
+    return guarded(world, [&](World& w, Check& c) {
+        c.finite("gravity", gravity, 1000);
+        if (c.ok()) w.def.gravity = gravity;
+    });
+}
+
+thawResult thawWorld_SetAmbient(thawWorld* world, float temperature, float convection) {
+    return guarded(world, [&](World& w, Check& c) {
+        c.range("temperature", temperature, 0, 1e5);
+        c.range("convection", convection, 0, 1e4);
+        if (c.ok()) w.def.ambientTemperature = temperature, w.def.convection = convection;
+    });
+}
+
+thawResult thawWorld_SetThermalTimeScale(thawWorld* world, float scale) {
+    return guarded(world, [&](World& w, Check& c) {
+        c.range("scale", scale, 0, 1e5);
+        if (c.ok()) w.def.thermalTimeScale = scale;
+    });
+}
+
+void thawInitMaterialDef(thawMaterialDef* def, thawMaterialPreset preset) {
+    if (def) *def = thaw::materialPreset(preset);
+}
+
+const char* thawMaterialPresetName(thawMaterialPreset preset) { return thaw::materialPresetName(preset); }
+
+thawResult thawCreateMaterial(thawWorld* world, const thawMaterialDef* def, thawMaterialId* outId) {
+    if (outId) *outId = {};
+    return guarded(world, [&](World& w, Check& c) {
+        checkMaterial(c, def);
+        if (!outId) c.fail(thawResult_invalidArgument, "outId: is NULL");
+        if (w.materials.size() >= static_cast<size_t>(w.def.maxMaterials))
+            c.fail(thawResult_capacity, "maxMaterials: all %d materials of the world are in use", w.def.maxMaterials);
+        if (!c.ok()) return;
+        w.materials.emplace_back(*def);
+        *outId = {static_cast<uint32_t>(w.materials.size()), w.tag, 1};
+    });
+}
+
+void thawInitBodyDef(thawBodyDef* def) {
+    if (!def) return;
+    *def = thawBodyDef{};
+    def->structSize = sizeof *def, def->cookie = thaw::kDefCookie;
+    def->rotation = {0, 0, 0, 1};
+    def->scale = 1;
+    def->temperature = std::numeric_limits<float>::quiet_NaN();
+}
+
+thawResult thawCreateBody(thawWorld* world, const thawBodyDef* def, thawBodyId* outId, thawMeshReport* meshReport) {
+    if (outId) *outId = {};
+    thawMeshReport found{};
+    const thawResult result = guarded(world, [&](World& w, Check& c) {
+        c.initialised("bodyDef", def);
+        if (!c.ok()) return;
+        if (!outId) c.fail(thawResult_invalidArgument, "outId: is NULL");
+        if (def->material.index1 == 0 || def->material.world != w.tag || def->material.index1 > w.materials.size())
+            c.fail(thawResult_staleId, "material: is not a material of this world");
+        c.finite("position", def->position, 1e5);
+        c.rotation("rotation", def->rotation);
+        c.range("scale", def->scale, 1e-6, 1e6);
+        if (!std::isnan(def->temperature)) c.range("temperature", def->temperature, 0, 1e5);
+        if (c.ok()) c.mesh("mesh", def->mesh);
+        if (!c.ok()) return;
+        std::string message;
+        uint32_t index1 = 0;
+        const thawResult r = w.addBody(*def, found, message, index1);
+        if (r != thawResult_ok) return c.fail(r, "%s", message.c_str());
+        *outId = {index1, w.tag, w.bodies[index1 - 1].generation};
+    });
+    if (meshReport) *meshReport = found;
+    return result;
+}
+
+thawResult thawDestroyBody(thawWorld* world, thawBodyId id) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!validBody(w, id)) return c.fail(thawResult_staleId, "body: is not alive in this world");
+        w.removeBody(id.index1 - 1);
+    });
+}
+
+thawResult thawBody_GetState(const thawWorld* world, thawBodyId id, thawBodyState* out) {
+    if (!world || !out) return thawResult_invalidArgument;
+    if (!validBody(world->world, id)) return thawResult_staleId;
+    *out = world->world.bodyState(id.index1 - 1);
+    return thawResult_ok;
+}
+
+void thawInitColliderDef(thawColliderDef* def, thawColliderType type) {
+    if (!def) return;
+    *def = thawColliderDef{};
+    def->structSize = sizeof *def, def->cookie = thaw::kDefCookie;
+    def->type = type;
+    def->rotation = {0, 0, 0, 1};
+    def->size = {1, 1, 1};
+    def->scale = 1;
+    def->adhesive = def->occluder = true;
+}
+
+thawResult thawCreateCollider(thawWorld* world, const thawColliderDef* def, thawColliderId* outId,
+                              thawMeshReport* meshReport) {
+    if (outId) *outId = {};
+    thawMeshReport found{};
+    const thawResult result = guarded(world, [&](World& w, Check& c) {
+        c.initialised("colliderDef", def);
+        if (!c.ok()) return;
+        if (!outId) c.fail(thawResult_invalidArgument, "outId: is NULL");
+        if (def->type < thawCollider_plane || def->type > thawCollider_mesh)
+            c.fail(thawResult_invalidArgument, "type: is not a thawColliderType, got %d", static_cast<int>(def->type));
+        c.finite("position", def->position, 1e5);
+        c.rotation("rotation", def->rotation);
+        if (def->type == thawCollider_box || def->type == thawCollider_sphere)
+            c.range("size.x", def->size.x, 1e-6, 1e4);
+        if (def->type == thawCollider_box)
+            c.range("size.y", def->size.y, 1e-6, 1e4), c.range("size.z", def->size.z, 1e-6, 1e4);
+        if (def->type == thawCollider_mesh) c.range("scale", def->scale, 1e-6, 1e6);
+        if (c.ok() && def->type == thawCollider_mesh) c.mesh("mesh", def->mesh);
+        if (!c.ok()) return;
+        std::string message;
+        uint32_t index1 = 0;
+        const thawResult r = w.addCollider(*def, found, message, index1);
+        if (r != thawResult_ok) return c.fail(r, "%s", message.c_str());
+        *outId = {index1, w.tag, w.colliderSlots[index1 - 1].generation};
+    });
+    if (meshReport) *meshReport = found;
+    return result;
+}
+
+thawResult thawDestroyCollider(thawWorld* world, thawColliderId id) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!validCollider(w, id)) return c.fail(thawResult_staleId, "collider: is not alive in this world");
+        w.removeCollider(id.index1 - 1);
+    });
+}
+
+void thawInitHeatSourceDef(thawHeatSourceDef* def) {
+    if (!def) return;
+    *def = thawHeatSourceDef{};
+    def->structSize = sizeof *def, def->cookie = thaw::kDefCookie;
+    def->power = 20;
+    def->radius = 0.005f;
+    def->enabled = true;
+}
+
+thawResult thawCreateHeatSource(thawWorld* world, const thawHeatSourceDef* def, thawHeatSourceId* outId) {
+    if (outId) *outId = {};
+    return guarded(world, [&](World& w, Check& c) {
+        checkSource(c, def);
+        if (!outId) c.fail(thawResult_invalidArgument, "outId: is NULL");
+        size_t slot = 0;
+        while (slot < w.sources.size() && w.sources[slot].alive) ++slot;
+        if (slot >= static_cast<size_t>(w.def.maxHeatSources))
+            c.fail(thawResult_capacity, "maxHeatSources: all %d sources of the world are in use", w.def.maxHeatSources);
+        if (!c.ok()) return;
+        if (w.sources.size() <= slot) w.sourceSlots.resize(slot + 1), w.sources.resize(slot + 1);
+        w.sources[slot] = toSource(*def);
+        thaw::SourceSlot& s = w.sourceSlots[slot];
+        ++s.generation;
+        if (s.generation == 0) s.generation = 1;
+        s.userData = def->userData;
+        *outId = {static_cast<uint32_t>(slot) + 1, w.tag, s.generation};
+    });
+}
+
+thawResult thawHeatSource_Set(thawWorld* world, thawHeatSourceId id, const thawHeatSourceDef* def) {
+    return guarded(world, [&](World& w, Check& c) {
+        checkSource(c, def);
+        if (c.ok() && !validSource(w, id)) c.fail(thawResult_staleId, "heatSource: is not alive in this world");
+        if (!c.ok()) return;
+        w.sources[id.index1 - 1] = toSource(*def);
+        w.sourceSlots[id.index1 - 1].userData = def->userData;
+    });
+}
+
+thawResult thawDestroyHeatSource(thawWorld* world, thawHeatSourceId id) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!validSource(w, id)) return c.fail(thawResult_staleId, "heatSource: is not alive in this world");
+        w.sources[id.index1 - 1] = {};
+    });
+}
+
+void thawInitBudget(thawBudget* budget) {
+    if (budget) *budget = defaultBudget();
+}
+
+void thawWorld_GetPlan(const thawWorld* world, thawPlan* out) {
+    if (world && out) *out = world->world.plan;
+}
+
+thawResult thawWorld_PreviewPlan(const thawWorld* world, const thawBudget* budget, thawPlan* out) {
+    if (!world || !out) return thawResult_invalidArgument;
+    const thawBudget b = budget ? *budget : defaultBudget();
+    Check c;
+    try {
+        checkBudget(c, b);
+    } catch (...) {
+        return thawResult_outOfMemory;
+    }
+    if (!c.ok()) return c.result;
+    *out = world->world.previewPlan(b);
+    return thawResult_ok;
+}
+
+uint32_t thawWorld_Step(thawWorld* world, float timeStep, const thawBudget* budget) {
+    if (!world) return thawStep_refused;
+    uint32_t status = thawStep_refused;
+    const thawResult result = guarded(world, [&](World& w, Check& c) {
+        c.range("timeStep", timeStep, 1e-5, 0.25);
+        const thawBudget b = budget ? *budget : defaultBudget();
+        checkBudget(c, b);
+        if (c.ok()) status = w.step(timeStep, b);
+    });
+    return result == thawResult_ok ? status : static_cast<uint32_t>(thawStep_refused);
+}
+
+void thawWorld_GetParticles(const thawWorld* world, thawParticleView* out) {
+    if (!out) return;
+    *out = {};
+    if (!world) return;
+    const thaw::Particles& p = world->world.particles;
+    out->count = p.count;
+    out->moving = p.moverCount;
+    out->positions = &p.position[0].x;
+    out->velocities = &p.velocity[0].x;
+    out->temperatures = p.temperature.data();
+    out->liquidFractions = p.liquidFraction.data();
+    out->normals = &p.normal[0].x;
+    out->ids = p.id.data();
+    out->bodies = p.body.data();
+    out->materials = p.material.data();
+    out->flags = p.flags.data();
+}
+
+void thawInitSurfaceDef(thawSurfaceDef* def) {
+    if (!def) return;
+    *def = thawSurfaceDef{};
+    def->structSize = sizeof *def, def->cookie = thaw::kDefCookie;
+    def->cellSize = 0.75f;
+    def->smoothing = 6;
+}
+
+thawResult thawWorld_ExtractSurface(thawWorld* world, const thawSurfaceDef* def, thawSurfaceView* out) {
+    if (out) *out = {};
+    return guarded(world, [&](World& w, Check& c) {
+        c.initialised("surfaceDef", def);
+        if (!c.ok()) return;
+        if (!out) c.fail(thawResult_invalidArgument, "out: is NULL");
+        c.range("cellSize", def->cellSize, 0.25, 4);
+        c.range("smoothing", def->smoothing, 0, 50);
+        if (c.ok()) w.extractSurface(*def, *out);
+    });
+}
+
+void thawWorld_GetLedger(const thawWorld* world, thawLedger* out) {
+    if (world && out) *out = world->world.ledger();
+}
+
+void thawWorld_GetCounters(const thawWorld* world, thawCounters* out) {
+    if (world && out) *out = world->world.counters();
+}
+
+void thawWorld_GetProfile(const thawWorld* world, thawProfile* out) {
+    if (world && out) *out = world->world.profile;
+}
+
+uint64_t thawWorld_GetStateHash(const thawWorld* world) { return world ? world->world.stateHash() : 0; }
+
+} // extern "C"

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "api/defs.h"
+
+namespace thaw {
+namespace {
+
+struct Preset {
+    const char* name;
+    float density, solidus, liquidus, latent, cs, cl, ks, kl, muSolid, muLiquid, absorptivity, emissivity;
+    float cohesion, adhesion;
+    thawVec3 color;
+};
+
+// third_party_notes/data_sources.md says where each number is from. One density for both phases (their mean where they
+// differ).
+constexpr Preset kPresets[thawMaterial_presetCount] = {
+    {"wax",
+     830,
+     325.15f,
+     331.15f,
+     190e3f,
+     2200,
+     2400,
+     0.24f,
+     0.15f,
+     1e4f,
+     5e-3f,
+     0.7f,
+     0.94f,
+     6,
+     0.5f,
+     {0.93f, 0.86f, 0.70f}},
+    {"chocolate",
+     1270,
+     302.15f,
+     307.15f,
+     46e3f,
+     1590,
+     1670,
+     0.24f,
+     0.26f,
+     1e4f,
+     6.0f,
+     0.9f,
+     0.92f,
+     6,
+     0.5f,
+     {0.17f, 0.07f, 0.03f}},
+    {"butter",
+     911,
+     283.15f,
+     310.15f,
+     100e3f,
+     2200,
+     2100,
+     0.2f,
+     0.17f,
+     2e3f,
+     0.035f,
+     0.8f,
+     0.92f,
+     6,
+     0.5f,
+     {0.95f, 0.78f, 0.30f}},
+    {"ice",
+     958,
+     272.65f,
+     273.65f,
+     333.6e3f,
+     2110,
+     4218,
+     2.14f,
+     0.56f,
+     1e5f,
+     1.8e-3f,
+     0.9f,
+     0.96f,
+     6,
+     0.5f,
+     {0.75f, 0.88f, 0.95f}},
+    {"icecream",
+     550,
+     255.15f,
+     271.15f,
+     175e3f,
+     3000,
+     3300,
+     0.25f,
+     0.3f,
+     3e3f,
+     0.4f,
+     0.85f,
+     0.95f,
+     6,
+     0.5f,
+     {0.96f, 0.80f, 0.78f}},
+};
+
+} // namespace
+
+thawMaterialDef materialPreset(thawMaterialPreset preset) {
+    const bool known = preset >= 0 && preset < thawMaterial_presetCount;
+    const Preset& p = kPresets[known ? preset : thawMaterial_wax];
+    thawMaterialDef d{};
+    d.structSize = sizeof d, d.cookie = kDefCookie;
+    d.density = p.density;
+    d.solidus = p.solidus, d.liquidus = p.liquidus, d.latentHeat = p.latent;
+    d.specificHeatSolid = p.cs, d.specificHeatLiquid = p.cl;
+    d.conductivitySolid = p.ks, d.conductivityLiquid = p.kl;
+    d.viscositySolid = p.muSolid, d.viscosityLiquid = p.muLiquid;
+    d.absorptivity = p.absorptivity, d.emissivity = p.emissivity;
+    d.cohesion = p.cohesion, d.adhesion = p.adhesion;
+    d.setFraction = 0.35f, d.releaseFraction = 0.6f;
+    d.color = p.color;
+    return d;
+}
+
+const char* materialPresetName(thawMaterialPreset preset) {
+    return preset >= 0 && preset < thawMaterial_presetCount ? kPresets[preset].name : nullptr;
+}
+
+} // namespace thaw

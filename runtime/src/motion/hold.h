@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/memory.h"
+#include "base/types.h"
+#include "geometry/colliders.h"
+#include "neighbors/neighbors.h"
+#include "particles/material.h"
+#include "particles/particles.h"
+
+namespace thaw {
+
+struct HoldFrame {
+    Particles& particles;
+    const Neighbors& neighbors; // of this step
+    const Material* materials;
+    const Collider* colliders;
+    int colliderCount;
+    float dt;     // s, of the step
+    bool relabel; // look for pieces that lost their hold
+};
+
+struct HoldResult {
+    int released = 0, set = 0, cutLoose = 0;
+    bool changed() const { return released + set + cutLoose > 0; }
+};
+
+// Decides what is held: solid wax that hangs together with a collider stands still exactly, everything else moves.
+//  - releases fixed particles whose liquid fraction rose above the material's releaseFraction,
+//  - sets slow movers below setFraction that touch a collider or something held,
+//  - when relabel is set, cuts loose fixed pieces that no path of touching fixed particles joins to a collider: they go
+//  on as
+//    lumps of the material's solid viscosity until they land and set again.
+// Works on flags only; the rows take their new places at the next sort.
+class Hold {
+public:
+    explicit Hold(Allocator& allocator) : state_(allocator), queue_(allocator) {}
+    HoldResult update(const HoldFrame& f);
+
+private:
+    Array<uint8_t> state_;
+    Array<uint32_t> queue_;
+};
+
+} // namespace thaw

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "world/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thaw {
+
+thawPlan makePlan(const Needs& n, const thawWork& work) {
+    thawPlan plan{};
+    plan.work = work;
+    auto set = [&](thawStage stage, bool on, thawReason why) {
+        plan.enabled[stage] = on;
+        plan.reason[stage] = on ? thawReason_needed : why;
+    };
+    const bool any = n.particles > 0;
+    set(thawStage_inputs, true, thawReason_needed);
+    set(thawStage_neighbors, any && n.listsStale, any ? thawReason_nothingChanged : thawReason_noParticles);
+    set(thawStage_exposure, any && n.listsStale, any ? thawReason_nothingChanged : thawReason_noParticles);
+
+    // Heat: the first reason that holds, in the order a person would ask.
+    auto heat = [&](thawStage stage, bool wanted, thawReason why) {
+        thawReason first = !any              ? thawReason_noParticles
+                           : n.timeScaleZero ? thawReason_timeScaleZero
+                           : !wanted         ? why
+                                             : thawReason_interval;
+        set(stage, any && !n.timeScaleZero && wanted && n.heatDue, first);
+    };
+    heat(thawStage_radiation, n.sourceOn && n.exposed > 0,
+         n.sourceOn ? thawReason_nothingExposed : thawReason_noSource);
+    heat(thawStage_conduction, n.unequal, thawReason_equilibrium);
+    heat(thawStage_loss, n.awayFromAmbient && n.exposed > 0,
+         n.awayFromAmbient ? thawReason_nothingExposed : thawReason_equilibrium);
+    const bool heated =
+        plan.enabled[thawStage_radiation] || plan.enabled[thawStage_conduction] || plan.enabled[thawStage_loss];
+    // New lists may hold a piece that nothing carries any more, so holding is looked at then too.
+    set(thawStage_phase, any && (heated || n.listsStale), any ? thawReason_nothingChanged : thawReason_noParticles);
+
+    for (thawStage s : {thawStage_forces, thawStage_viscosity, thawStage_pressure, thawStage_collision})
+        set(s, n.movers > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
+    set(thawStage_stats, any && (heated || n.listsStale || n.movers > 0),
+        any ? thawReason_nothingChanged : thawReason_noParticles);
+    return plan;
+}
+
+namespace {
+
+// Least visible first: rays, heat interval, sub-steps, iterations.
+struct Quality {
+    float rays;
+    int heatInterval, subSteps, pressure, viscosity;
+};
+constexpr Quality kQualities[] = {
+    {1.0f, 1, 16, 64, 200}, {0.5f, 1, 16, 64, 200}, {0.25f, 1, 16, 64, 200}, {0.25f, 2, 4, 8, 40}, {0.25f, 2, 2, 4, 20},
+    {0.125f, 2, 2, 4, 12},  {0.125f, 4, 1, 4, 12},  {0.125f, 4, 1, 3, 8},    {0.05f, 4, 1, 2, 6},  {0.05f, 8, 1, 2, 4},
+};
+constexpr int kQualityCount = static_cast<int>(sizeof(kQualities) / sizeof(kQualities[0]));
+constexpr float kFill = 0.80f;      // of the budget, predicted: leaves room for what no prediction sees
+constexpr float kClimbFill = 0.70f; // dead band against going up and down
+constexpr int kClimbAfter = 30;     // good frames
+
+thawWork clip(const Quality& q, const thawWork& limit) {
+    return {std::min(q.subSteps, limit.subSteps), std::min(q.pressure, limit.pressureIterations),
+            std::min(q.viscosity, limit.viscosityIterations), std::max(q.heatInterval, limit.heatInterval),
+            std::min(q.rays, limit.rayRefresh)};
+}
+
+} // namespace
+
+float Governor::predict(const Needs& n, const thawWork& w, int subStepsWanted) const {
+    const float particles = static_cast<float>(n.particles), movers = static_cast<float>(n.movers);
+    const float steps = static_cast<float>(std::clamp(subStepsWanted, 1, w.subSteps));
+    float ms = fixed_;
+    if (n.listsStale) ms += particles * (perParticle_ * steps + perExposure_);
+    if (!n.timeScaleZero && (n.sourceOn || n.unequal || n.awayFromAmbient)) {
+        // The peak frame counts, not the mean over the interval: a budget is kept in every frame.
+        ms += particles * perHeat_;
+        if (n.sourceOn) ms += static_cast<float>(n.exposed) * w.rayRefresh * perRay_;
+    }
+    if (n.movers > 0) {
+        const float its = std::min(static_cast<float>(w.viscosityIterations), viscosityPerSubStep_ * 1.25f + 1);
+        ms += movers * steps *
+              (perMover_ + perViscosity_ * its + perPressure_ * static_cast<float>(w.pressureIterations));
+    }
+    return ms;
+}
+
+thawWork Governor::choose(const Needs& needs, float milliseconds, const thawWork& limit, int subStepsWanted,
+                          float& predictedMs) {
+    int best = kQualityCount - 1;
+    for (int q = 0; q < kQualityCount; ++q)
+        if (predict(needs, clip(kQualities[q], limit), subStepsWanted) <= kFill * milliseconds) {
+            best = q;
+            break;
+        }
+    if (best > quality_) {
+        quality_ = best, goodFrames_ = 0;
+    } else if (best < quality_) {
+        const bool roomy =
+            predict(needs, clip(kQualities[quality_ - 1], limit), subStepsWanted) <= kClimbFill * milliseconds;
+        goodFrames_ = roomy ? goodFrames_ + 1 : 0;
+        if (goodFrames_ >= kClimbAfter) --quality_, goodFrames_ = 0;
+    } else {
+        goodFrames_ = 0;
+    }
+    const thawWork work = clip(kQualities[quality_], limit);
+    predictedMs = predict(needs, work, subStepsWanted);
+    return work;
+}
+
+void Governor::learn(const Cost& c) {
+    // Fast up, slow down: a machine that became slow is noticed in two frames, one quick frame proves little.
+    auto blend = [](float& estimate, float ms, double units) {
+        if (units < 1 || !std::isfinite(ms)) return;
+        const float now = ms / static_cast<float>(units);
+        estimate += (now > estimate ? 0.5f : 0.08f) * (now - estimate);
+    };
+    const double n = c.particles, m = static_cast<double>(c.movers) * c.subSteps;
+    const float* s = c.stageMs;
+    if (s[thawStage_neighbors] > 0) {
+        blend(perParticle_, s[thawStage_neighbors], n * c.subSteps);
+        blend(perExposure_, s[thawStage_exposure] + s[thawStage_phase] + s[thawStage_stats], n);
+    }
+    if (c.rays > 0) blend(perRay_, s[thawStage_radiation], c.rays);
+    if (c.heatRan) blend(perHeat_, s[thawStage_conduction] + s[thawStage_loss], n);
+    if (m > 0) {
+        blend(perMover_, s[thawStage_forces] + s[thawStage_collision], m);
+        if (c.viscosityIterations > 0)
+            blend(perViscosity_, s[thawStage_viscosity],
+                  static_cast<double>(c.movers) * (c.viscosityIterations + c.subSteps));
+        if (c.pressureIterations > 0)
+            blend(perPressure_, s[thawStage_pressure], static_cast<double>(c.movers) * c.pressureIterations);
+        const float its = static_cast<float>(c.viscosityIterations) / static_cast<float>(c.subSteps);
+        viscosityPerSubStep_ += (its > viscosityPerSubStep_ ? 0.5f : 0.05f) * (its - viscosityPerSubStep_);
+    }
+}
+
+} // namespace thaw

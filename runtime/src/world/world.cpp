@@ -1,0 +1,540 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "world/world.h"
+
+#include "base/kernel.h"
+#include "particles/exposure.h"
+
+#include <chrono>
+
+namespace thaw {
+namespace {
+
+// A piece that lost its hold may hang this many steps: looking for one costs about a millisecond at 12,000 particles.
+constexpr uint32_t kRelabelInterval = 8;
+// Below this difference, temperatures count as equal: no conduction, no loss.
+constexpr float kEqualTemperature = 1e-3f; // K
+constexpr int kRowBlock = 2048;
+
+using Clock = std::chrono::steady_clock;
+
+// Adds the wall-clock time of its scope to one field of the profile.
+struct StageTimer {
+    explicit StageTimer(float& field) : field_(field), start_(Clock::now()) {}
+    ~StageTimer() { field_ += std::chrono::duration<float, std::milli>(Clock::now() - start_).count(); }
+    float& field_;
+    Clock::time_point start_;
+};
+
+uint16_t makeTag(const void* self) {
+    // No global counter: two worlds at once differ by address. 16 bits catch a mix-up, not malice.
+    uint64_t h = hashCombine(0x7468617721ULL, reinterpret_cast<uintptr_t>(self));
+    return static_cast<uint16_t>((h ^ (h >> 16) ^ (h >> 32)) | 1);
+}
+
+Transform toTransform(thawVec3 p, thawQuat q, float scale) {
+    float l = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+    return {{p.x, p.y, p.z}, {q.x / l, q.y / l, q.z / l, q.w / l}, scale};
+}
+
+} // namespace
+
+World::World(const thawWorldDef& d)
+    : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
+      motion_(allocator), heat_(allocator), hold_(allocator), surface_(allocator), volume_(allocator),
+      invDensity_(allocator), blockTotals_(allocator) {
+    particles.allocate(d.maxParticles);
+    const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
+    volume_.resize(n), invDensity_.resize(n);
+    blockTotals_.resize(static_cast<size_t>(Tasks::blockCount(d.maxParticles, kRowBlock)));
+    materials.reserve(static_cast<size_t>(d.maxMaterials));
+}
+
+uint32_t World::step(float dt, const thawBudget& budget) {
+    const Clock::time_point start = Clock::now();
+    profile = {};
+    uint32_t status = thawStep_ok;
+    const int wanted =
+        Motion::subStepsWanted(particles, dt, {def.gravity.x, def.gravity.y, def.gravity.z}, def.particleSpacing, 16);
+    // What this frame runs: the host's work units, or the governor's choice within a budget of milliseconds.
+    thawWork work = budget.work;
+    float predicted = 0;
+    if (budget.mode == thawBudget_milliseconds)
+        work = governor_.choose(needs(), budget.milliseconds, budget.work, wanted, predicted);
+    heatTimePending_ += static_cast<double>(dt) * def.thermalTimeScale;
+    Needs now = needs();
+    now.heatDue = heatDue(work);
+    plan = makePlan(now, work);
+    plan.predictedMs = predicted;
+    const int subSteps = std::clamp(wanted, 1, work.subSteps);
+    if (wanted > subSteps && now.movers > 0) status |= thawStep_subStepsClipped;
+    auto on = [&](thawStage s) { return plan.enabled[s]; };
+    auto timed = [&](thawStage s) { return StageTimer(profile.stage[s]); };
+
+    if (on(thawStage_neighbors)) {
+        auto t = timed(thawStage_neighbors);
+        refreshNeighbors();
+    }
+    if (on(thawStage_exposure)) {
+        auto t = timed(thawStage_exposure);
+        exposed_ = findExposure(particles, neighbors_, volume_.data(), colliders.data(),
+                                static_cast<int>(colliders.size()), tasks);
+    }
+
+    const bool heated = on(thawStage_radiation) || on(thawStage_conduction) || on(thawStage_loss);
+    HeatStats heatStats{};
+    if (heated) {
+        const HeatFrame frame = heatFrame(heatTimePending_, work);
+        if (on(thawStage_radiation)) {
+            auto t = timed(thawStage_radiation);
+            heat_.radiation(frame);
+        }
+        if (on(thawStage_conduction)) {
+            auto t = timed(thawStage_conduction);
+            heat_.conduction(frame);
+        }
+        if (on(thawStage_loss)) {
+            auto t = timed(thawStage_loss);
+            heat_.loss(frame);
+        }
+        auto t = timed(thawStage_phase);
+        heat_.integrate(frame);
+        heatStats = heat_.stats();
+        absorbed_ += heatStats.absorbed, emitted_ += heatStats.emitted, convected_ += heatStats.convected;
+        if (heatStats.raysReduced) status |= thawStep_raysReduced;
+    }
+    if (now.heatDue) heatTimePending_ = 0;
+
+    MotionStats motionStats{};
+    if (on(thawStage_forces)) {
+        const float h = dt / static_cast<float>(subSteps);
+        for (int s = 0; s < subSteps; ++s) {
+            if (s > 0) {
+                auto t = timed(thawStage_neighbors);
+                refreshNeighbors();
+            }
+            const MotionFrame frame = motionFrame(h, subSteps, work);
+            {
+                auto t = timed(thawStage_forces);
+                motion_.begin(frame);
+                motion_.forces(frame);
+            }
+            {
+                auto t = timed(thawStage_viscosity);
+                motion_.viscosity(frame);
+            }
+            {
+                auto t = timed(thawStage_pressure);
+                motion_.pressure(frame);
+            }
+            {
+                auto t = timed(thawStage_collision);
+                motion_.move(frame);
+            }
+            const MotionStats& m = motion_.stats();
+            motionStats.viscosityIterations += m.viscosityIterations;
+            motionStats.iterationsClipped |= m.iterationsClipped, motionStats.velocityClamped |= m.velocityClamped;
+            motionStats.maxSpeed = std::max(motionStats.maxSpeed, m.maxSpeed);
+            motionStats.maxCompression = m.maxCompression, motionStats.meanCompression = m.meanCompression;
+            motionStats.apparentViscosity = m.apparentViscosity;
+        }
+        listsStale_ = true;
+        if (motionStats.iterationsClipped) status |= thawStep_iterationsClipped;
+        if (motionStats.velocityClamped) status |= thawStep_velocityClamped;
+    }
+    if (on(thawStage_phase)) {
+        auto t = timed(thawStage_phase);
+        holdAndRelease(dt);
+    }
+    if (on(thawStage_stats)) {
+        auto t = timed(thawStage_stats);
+        measure();
+        if (badParticles_ > 0) {
+            status |= thawStep_badParticlesRemoved;
+            removeParticles(
+                [](const Particles& p, int i, uint32_t) {
+                    return !isFinite(p.position[i].xyz()) || !isFinite(p.velocity[i].xyz()) ||
+                           !std::isfinite(p.enthalpy[i]);
+                },
+                0);
+            measure();
+        }
+    }
+    if (neighbors_.clipped) status |= thawStep_neighborsClipped;
+
+    ++steps_;
+    time_ += dt;
+    counters_.subSteps = on(thawStage_forces) ? subSteps : 0;
+    counters_.pressureIterations = on(thawStage_pressure) ? subSteps * work.pressureIterations : 0;
+    counters_.viscosityIterations = motionStats.viscosityIterations;
+    counters_.rays = heatStats.rays;
+    counters_.maxSpeed = motionStats.maxSpeed;
+    counters_.maxCompression = motionStats.maxCompression, counters_.meanCompression = motionStats.meanCompression;
+    counters_.apparentViscosity = motionStats.apparentViscosity;
+
+    profile.step = std::chrono::duration<float, std::milli>(Clock::now() - start).count();
+    Governor::Cost cost{};
+    std::copy(std::begin(profile.stage), std::end(profile.stage), std::begin(cost.stageMs));
+    cost.particles = particles.count, cost.movers = now.movers, cost.exposed = exposed_, cost.rays = heatStats.rays;
+    cost.subSteps = subSteps, cost.pressureIterations = counters_.pressureIterations;
+    cost.viscosityIterations = counters_.viscosityIterations, cost.heatRan = heated;
+    governor_.learn(cost);
+    if (budget.mode == thawBudget_milliseconds && profile.step > budget.milliseconds) status |= thawStep_overBudget;
+    return status;
+}
+
+Needs World::needs() const {
+    Needs n;
+    n.particles = particles.count;
+    // What was released or set since the last sort counts already.
+    n.movers = counters_.moving;
+    n.exposed = steps_ == 0 || listsStale_ ? particles.count : exposed_;
+    n.listsStale = listsStale_;
+    for (const HeatSource& s : sources) n.sourceOn |= s.alive && s.enabled && s.power != 0;
+    n.timeScaleZero = def.thermalTimeScale == 0;
+    n.unequal = maxTemperature_ - minTemperature_ > kEqualTemperature;
+    n.awayFromAmbient = maxTemperature_ - def.ambientTemperature > kEqualTemperature ||
+                        def.ambientTemperature - minTemperature_ > kEqualTemperature;
+    return n;
+}
+
+bool World::heatDue(const thawWork& work) const { return steps_ % static_cast<uint64_t>(work.heatInterval) == 0; }
+
+thawPlan World::previewPlan(const thawBudget& budget) const {
+    Needs n = needs();
+    thawWork work = budget.work;
+    float predicted = 0;
+    if (budget.mode == thawBudget_milliseconds) {
+        Governor governor = governor_; // choosing moves its memory; a preview must not
+        const int wanted = Motion::subStepsWanted(particles, 1.0f / 60, {def.gravity.x, def.gravity.y, def.gravity.z},
+                                                  def.particleSpacing, 16);
+        work = governor.choose(n, budget.milliseconds, budget.work, wanted, predicted);
+    }
+    n.heatDue = heatDue(work);
+    thawPlan p = makePlan(n, work);
+    p.predictedMs = predicted;
+    return p;
+}
+
+void World::refreshNeighbors() {
+    neighbors_.sort(particles, tasks);
+    neighbors_.build(particles, tasks);
+    fillMassArrays();
+    neighbors_.weigh(particles, volume_.data(), invDensity_.data(), tasks);
+    listsStale_ = false;
+}
+
+void World::fillMassArrays() {
+    for (int i = 0; i < particles.count; ++i) {
+        const size_t k = static_cast<size_t>(i);
+        const float density = materials[particles.material[k]].def.density;
+        volume_[k] = particles.velocity[k].w / density;
+        invDensity_[k] = particles.fixed(i) ? 0.0f : 1 / density;
+    }
+    for (int i = particles.count; i < particles.count + Particles::kPadding; ++i)
+        volume_[static_cast<size_t>(i)] = invDensity_[static_cast<size_t>(i)] = 0;
+}
+
+MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work) {
+    return {particles,
+            neighbors_,
+            volume_.data(),
+            invDensity_.data(),
+            materials.data(),
+            colliders.data(),
+            static_cast<int>(colliders.size()),
+            tasks,
+            dt,
+            subSteps,
+            {def.gravity.x, def.gravity.y, def.gravity.z},
+            def.particleSpacing,
+            work.pressureIterations,
+            work.viscosityIterations};
+}
+
+HeatFrame World::heatFrame(double dt, const thawWork& work) {
+    return {particles,
+            neighbors_,
+            volume_.data(),
+            materials.data(),
+            colliders.data(),
+            static_cast<int>(colliders.size()),
+            colliderVersion_,
+            sources.data(),
+            static_cast<int>(sources.size()),
+            tasks,
+            dt,
+            def.ambientTemperature,
+            def.convection,
+            def.particleSpacing,
+            work.rayRefresh};
+}
+
+void World::holdAndRelease(float dt) {
+    ++stepsSinceRelabel_;
+    const bool relabel = holdStale_ && stepsSinceRelabel_ >= kRelabelInterval;
+    const HoldResult r = hold_.update(
+        {particles, neighbors_, materials.data(), colliders.data(), static_cast<int>(colliders.size()), dt, relabel});
+    if (relabel) holdStale_ = false, stepsSinceRelabel_ = 0;
+    if (r.released > 0) holdStale_ = true;
+    if (r.changed()) listsStale_ = true;
+}
+
+void World::measure() {
+    const int blocks = Tasks::blockCount(particles.count, kRowBlock);
+    tasks.forBlocks(particles.count, kRowBlock, [&](int begin, int end, int block, int) {
+        Totals t{0, 0, 0, INFINITY, -INFINITY, 0, 0};
+        for (int i = begin; i < end; ++i) {
+            const size_t k = static_cast<size_t>(i);
+            const double mass = particles.velocity[k].w;
+            t.mass += mass;
+            t.energy += mass * particles.enthalpy[k];
+            t.liquid += mass * particles.liquidFraction[k];
+            t.minTemperature = std::min(t.minTemperature, particles.temperature[k]);
+            t.maxTemperature = std::max(t.maxTemperature, particles.temperature[k]);
+            t.surface += (particles.flags[k] & kSurface) != 0;
+            t.bad += !isFinite(particles.position[k].xyz()) || !isFinite(particles.velocity[k].xyz()) ||
+                     !std::isfinite(particles.enthalpy[k]);
+        }
+        blockTotals_[static_cast<size_t>(block)] = t;
+    });
+    massNow_ = energyNow_ = liquidMass_ = 0;
+    minTemperature_ = INFINITY, maxTemperature_ = -INFINITY;
+    badParticles_ = counters_.surface = 0;
+    for (int b = 0; b < blocks; ++b) {
+        const Totals& t = blockTotals_[static_cast<size_t>(b)];
+        massNow_ += t.mass, energyNow_ += t.energy, liquidMass_ += t.liquid;
+        minTemperature_ = std::min(minTemperature_, t.minTemperature);
+        maxTemperature_ = std::max(maxTemperature_, t.maxTemperature);
+        counters_.surface += t.surface, badParticles_ += t.bad;
+    }
+    if (particles.count == 0) minTemperature_ = maxTemperature_ = def.ambientTemperature;
+    counters_.moving = 0;
+    for (int i = 0; i < particles.count; ++i) counters_.moving += !particles.fixed(i);
+    counters_.fixed = particles.count - counters_.moving;
+}
+
+void World::removeParticles(bool (*remove)(const Particles&, int, uint32_t), uint32_t argument) {
+    int kept = 0;
+    for (int i = 0; i < particles.count; ++i) {
+        const size_t k = static_cast<size_t>(i);
+        if (remove(particles, i, argument)) {
+            const double mass = particles.velocity[k].w;
+            massRemoved_ += mass;
+            if (std::isfinite(particles.enthalpy[k])) energyRemoved_ += mass * particles.enthalpy[k];
+            continue;
+        }
+        const size_t to = static_cast<size_t>(kept++);
+        if (to == k) continue;
+#define X(type, name) particles.name[to] = particles.name[k];
+        THAW_PARTICLE_FIELDS(X)
+#undef X
+    }
+    particles.count = kept;
+    particles.moverCount = std::min(particles.moverCount, kept);
+    particles.pad();
+    listsStale_ = holdStale_ = true;
+    stepsSinceRelabel_ = kRelabelInterval;
+}
+
+thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::string& message, uint32_t& index1) {
+    size_t slot = 0;
+    while (slot < bodies.size() && bodies[slot].alive) ++slot;
+    if (slot >= static_cast<size_t>(def.maxBodies)) {
+        message = "maxBodies: all " + std::to_string(def.maxBodies) + " bodies of the world are in use";
+        return thawResult_capacity;
+    }
+    CleanMesh mesh;
+    thawResult r = cleanMesh(d.mesh, toTransform(d.position, d.rotation, d.scale), mesh, message);
+    report = mesh.report;
+    if (r != thawResult_ok) return r;
+    std::vector<Vec3> points;
+    float volume = 0;
+    r = fillMesh(mesh, def.particleSpacing, def.maxParticles - particles.count, tasks, points, volume, message);
+    if (r != thawResult_ok) return r;
+    if (bodies.size() <= slot) bodies.resize(slot + 1);
+
+    const uint32_t material = d.material.index1 - 1;
+    const Material& m = materials[material];
+    const float temperature = std::isnan(d.temperature) ? def.ambientTemperature : d.temperature;
+    const double H = m.enthalpy(temperature);
+    const float phi = m.liquidFraction(H);
+    const float mass = volume * m.def.density;
+    for (const Vec3& x : points) {
+        const size_t k = static_cast<size_t>(particles.count++);
+#define X(type, name) particles.name[k] = type{};
+        THAW_PARTICLE_FIELDS(X)
+#undef X
+        particles.position[k] = {x.x, x.y, x.z, kSupport * def.particleSpacing};
+        particles.velocity[k] = {0, 0, 0, mass};
+        particles.velocityChange[k] = {0, 0, 0, 1};
+        particles.enthalpy[k] = H;
+        particles.temperature[k] = m.temperature(H);
+        particles.liquidFraction[k] = phi;
+        particles.id[k] = nextId_++;
+        particles.body[k] = static_cast<uint16_t>(slot);
+        particles.material[k] = static_cast<uint8_t>(material);
+        particles.flags[k] = phi < m.def.releaseFraction ? kFixed : 0;
+        massAdded_ += mass;
+        energyAdded_ += static_cast<double>(mass) * H;
+    }
+    particles.pad();
+    Body& body = bodies[slot];
+    ++body.generation;
+    if (body.generation == 0) body.generation = 1;
+    body.alive = true, body.userData = d.userData;
+    index1 = static_cast<uint32_t>(slot) + 1;
+    listsStale_ = holdStale_ = true;
+    stepsSinceRelabel_ = kRelabelInterval;
+    measure();
+    return thawResult_ok;
+}
+
+void World::removeBody(uint32_t index) {
+    removeParticles([](const Particles& p, int i, uint32_t body) { return p.body[static_cast<size_t>(i)] == body; },
+                    index);
+    bodies[index].alive = false;
+    measure();
+}
+
+thawBodyState World::bodyState(uint32_t index) const {
+    thawBodyState s{};
+    double mass = 0, liquid = 0, heat = 0, cx = 0, cy = 0, cz = 0;
+    Box box;
+    for (int i = 0; i < particles.count; ++i) {
+        const size_t k = static_cast<size_t>(i);
+        if (particles.body[k] != index) continue;
+        ++s.particles;
+        const Vec4& x = particles.position[k];
+        const double m = particles.velocity[k].w;
+        mass += m, liquid += m * particles.liquidFraction[k], heat += m * particles.temperature[k];
+        cx += m * x.x, cy += m * x.y, cz += m * x.z;
+        box.grow(x.xyz());
+    }
+    if (s.particles == 0) return s;
+    s.mass = static_cast<float>(mass);
+    s.meltedFraction = static_cast<float>(liquid / mass), s.meanTemperature = static_cast<float>(heat / mass);
+    s.center = {static_cast<float>(cx / mass), static_cast<float>(cy / mass), static_cast<float>(cz / mass)};
+    s.lower = {box.lower.x, box.lower.y, box.lower.z}, s.upper = {box.upper.x, box.upper.y, box.upper.z};
+    return s;
+}
+
+thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, std::string& message,
+                              uint32_t& index1) {
+    size_t slot = 0;
+    while (slot < colliders.size() && colliders[slot].alive) ++slot;
+    if (slot >= static_cast<size_t>(def.maxColliders)) {
+        message = "maxColliders: all " + std::to_string(def.maxColliders) + " colliders of the world are in use";
+        return thawResult_capacity;
+    }
+    Collider c;
+    c.type = d.type;
+    c.transform = toTransform(d.position, d.rotation, 1);
+    c.size = {d.size.x, d.size.y, d.size.z};
+    c.adhesive = d.adhesive, c.occluder = d.occluder, c.alive = true;
+    if (d.type == thawCollider_mesh) {
+        auto mesh = std::make_shared<CleanMesh>();
+        const thawResult r = cleanMesh(d.mesh, toTransform(d.position, d.rotation, d.scale), *mesh, message);
+        report = mesh->report;
+        if (r != thawResult_ok) return r;
+        // Melt feels a wall within four spacings; beyond that a lower bound of the distance is enough.
+        c.grid = std::make_shared<DistanceGrid>(
+            makeDistanceGrid(*mesh, 0.5f * def.particleSpacing, 5 * def.particleSpacing, size_t{8} << 20, tasks));
+        c.mesh = std::move(mesh);
+    }
+    if (colliders.size() <= slot) colliders.resize(slot + 1), colliderSlots.resize(slot + 1);
+    colliders[slot] = std::move(c);
+    ColliderSlot& s = colliderSlots[slot];
+    ++s.generation;
+    if (s.generation == 0) s.generation = 1;
+    s.userData = d.userData;
+    index1 = static_cast<uint32_t>(slot) + 1;
+    ++colliderVersion_;
+    listsStale_ = holdStale_ = true;
+    stepsSinceRelabel_ = kRelabelInterval;
+    return thawResult_ok;
+}
+
+void World::removeCollider(uint32_t index) {
+    colliders[index] = Collider{};
+    ++colliderVersion_;
+    listsStale_ = holdStale_ = true;
+    stepsSinceRelabel_ = kRelabelInterval;
+}
+
+void World::extractSurface(const thawSurfaceDef& d, thawSurfaceView& out) {
+    surface_.extract({particles.count, particles.position.data(), particles.temperature.data(),
+                      particles.liquidFraction.data(), particles.material.data(), particles.flags.data(),
+                      def.particleSpacing},
+                     d.cellSize, d.smoothing, tasks);
+    out = {static_cast<int32_t>(surface_.positions.size()),
+           static_cast<int32_t>(surface_.indices.size() / 3),
+           surface_.positions.empty() ? nullptr : &surface_.positions[0].x,
+           surface_.normals.empty() ? nullptr : &surface_.normals[0].x,
+           surface_.temperatures.data(),
+           surface_.liquidFractions.data(),
+           surface_.materials.data(),
+           surface_.indices.data()};
+}
+
+uint64_t World::stateHash() const {
+    uint64_t h = 0xcbf29ce484222325ULL;
+    auto bytes = [&](const void* data, size_t size) {
+        const unsigned char* p = static_cast<const unsigned char*>(data);
+        for (; size >= 8; size -= 8, p += 8) {
+            uint64_t w;
+            std::memcpy(&w, p, 8);
+            h = hashCombine(h, w);
+        }
+        uint64_t w = 0;
+        std::memcpy(&w, p, size);
+        h = hashCombine(h, w ^ size);
+    };
+    const size_t n = static_cast<size_t>(particles.count);
+#define X(type, name) bytes(particles.name.data(), n * sizeof(type));
+    THAW_PARTICLE_FIELDS(X)
+#undef X
+    bytes(&steps_, sizeof steps_);
+    bytes(&heatTimePending_, sizeof heatTimePending_);
+    bytes(&nextId_, sizeof nextId_);
+    bytes(&def.gravity, sizeof def.gravity);
+    bytes(&def.ambientTemperature, sizeof(float)), bytes(&def.convection, sizeof(float));
+    bytes(&def.thermalTimeScale, sizeof(float));
+    for (const HeatSource& s : sources) {
+        if (!s.alive || !s.enabled) continue;
+        const float v[5] = {s.position.x, s.position.y, s.position.z, s.power, s.radius};
+        bytes(v, sizeof v);
+    }
+    bytes(&stepsSinceRelabel_, sizeof stepsSinceRelabel_);
+    return h;
+}
+
+thawLedger World::ledger() const {
+    thawLedger l{};
+    l.massAdded = massAdded_, l.massRemoved = massRemoved_, l.massNow = massNow_;
+    l.energyAdded = energyAdded_, l.energyRemoved = energyRemoved_, l.energyNow = energyNow_;
+    l.absorbed = absorbed_, l.emitted = emitted_, l.convected = convected_;
+    l.massError = massAdded_ > 0 ? std::abs(massNow_ - massAdded_ + massRemoved_) / massAdded_ : 0;
+    const double expected = energyAdded_ - energyRemoved_ + absorbed_ - emitted_ - convected_;
+    const double scale = std::max(
+        {std::abs(energyAdded_ - energyRemoved_), std::abs(absorbed_), std::abs(emitted_), std::abs(convected_)});
+    l.energyError = scale > 0 ? std::abs(energyNow_ - expected) / scale : 0;
+    return l;
+}
+
+thawCounters World::counters() const {
+    thawCounters c = counters_;
+    c.particles = particles.count, c.capacity = def.maxParticles;
+    c.materials = static_cast<int32_t>(materials.size());
+    for (const Body& b : bodies) c.bodies += b.alive;
+    for (const Collider& x : colliders) c.colliders += x.alive;
+    for (const HeatSource& s : sources) c.heatSources += s.alive;
+    c.neighborsMax = neighbors_.maxNeighbors, c.neighborsMean = neighbors_.meanNeighbors;
+    c.meltedFraction = massNow_ > 0 ? static_cast<float>(liquidMass_ / massNow_) : 0;
+    c.minTemperature = minTemperature_, c.maxTemperature = maxTemperature_;
+    c.steps = steps_, c.time = time_;
+    c.memoryBytes = allocator.bytes();
+    return c;
+}
+
+} // namespace thaw

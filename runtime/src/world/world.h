@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/tasks.h"
+#include "geometry/colliders.h"
+#include "geometry/mesh_fill.h"
+#include "heat/heat.h"
+#include "motion/hold.h"
+#include "motion/motion.h"
+#include "neighbors/neighbors.h"
+#include "particles/material.h"
+#include "particles/particles.h"
+#include "surface/surface.h"
+#include "world/plan.h"
+
+#include <string>
+#include <vector>
+
+namespace thaw {
+
+struct Body {
+    uint16_t generation = 0;
+    bool alive = false;
+    void* userData = nullptr;
+};
+
+struct ColliderSlot {
+    uint16_t generation = 0;
+    void* userData = nullptr;
+};
+
+struct SourceSlot {
+    uint16_t generation = 0;
+    void* userData = nullptr;
+};
+
+// One independent world. Arguments are validated by the C boundary (src/api); what can still fail here returns a
+// thawResult and a message, or throws std::bad_alloc, with the world unchanged.
+class World {
+public:
+    explicit World(const thawWorldDef& def);
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    // The whole frame.
+    uint32_t step(float dt, const thawBudget& budget);
+    // The plan that a step with this budget would run.
+    thawPlan previewPlan(const thawBudget& budget) const;
+
+    thawResult addBody(const thawBodyDef& def, thawMeshReport& report, std::string& message, uint32_t& index1);
+    void removeBody(uint32_t index);
+    thawBodyState bodyState(uint32_t index) const;
+    thawResult addCollider(const thawColliderDef& def, thawMeshReport& report, std::string& message, uint32_t& index1);
+    void removeCollider(uint32_t index);
+    void extractSurface(const thawSurfaceDef& def, thawSurfaceView& out);
+    uint64_t stateHash() const;
+    thawLedger ledger() const;
+    thawCounters counters() const;
+
+    thawWorldDef def; // with hooks and the settings that may change
+    Allocator allocator;
+    Tasks tasks;
+    uint16_t tag; // in every id of this world
+    std::string lastError;
+
+    std::vector<Material> materials;
+    std::vector<Body> bodies;
+    std::vector<Collider> colliders;
+    std::vector<ColliderSlot> colliderSlots;
+    std::vector<HeatSource> sources;
+    std::vector<SourceSlot> sourceSlots;
+    Particles particles;
+    thawPlan plan{};
+    thawProfile profile{};
+
+private:
+    struct Totals { // sums over a block of particles
+        double mass, energy, liquid;
+        float minTemperature, maxTemperature;
+        int surface, bad;
+    };
+    Needs needs() const;
+    bool heatDue(const thawWork& work) const;
+    void refreshNeighbors();
+    void fillMassArrays();
+    MotionFrame motionFrame(float dt, int subSteps, const thawWork& work);
+    HeatFrame heatFrame(double dt, const thawWork& work);
+    void holdAndRelease(float dt);
+    void measure();
+    void removeParticles(bool (*remove)(const Particles&, int, uint32_t), uint32_t argument);
+
+    Neighbors neighbors_;
+    Motion motion_;
+    Heat heat_;
+    Hold hold_;
+    Surface surface_;
+    Governor governor_;
+    Array<float> volume_, invDensity_;
+    Array<Totals> blockTotals_;
+
+    bool listsStale_ = true;
+    bool holdStale_ = false; // some fixed particle went: pieces may have lost their hold
+    uint32_t stepsSinceRelabel_ = 0;
+    uint64_t colliderVersion_ = 1;
+    uint32_t nextId_ = 1;
+    uint64_t steps_ = 0;
+    double time_ = 0;
+    double heatTimePending_ = 0; // s of heat time not yet applied (heatInterval)
+    int exposed_ = 0;
+
+    // Ledger and counters of the last measurement.
+    double massAdded_ = 0, massRemoved_ = 0, energyAdded_ = 0, energyRemoved_ = 0;
+    double absorbed_ = 0, emitted_ = 0, convected_ = 0;
+    double massNow_ = 0, energyNow_ = 0, liquidMass_ = 0;
+    float minTemperature_ = 0, maxTemperature_ = 0;
+    int badParticles_ = 0;
+    thawCounters counters_{};
+};
+
+} // namespace thaw
