@@ -5,36 +5,41 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "base/types.h"
+#include "surface/field.h"
+#include "surface/smooth.h"
 
 namespace thaw {
 
-// What the mesher reads. Several spacings may stand side by side.
-struct SurfaceInput {
-    int count = 0;
-    const Vec4* positions = nullptr;     // xyz, w: support radius h = 2.2 * spacing of that particle
-    const float* temperatures = nullptr; // K
-    const float* liquidFractions = nullptr;
-    const uint8_t* materials = nullptr;
-    const uint8_t* flags = nullptr; // thawParticleFlags
-    float spacing = 0;              // m, of level 0
-};
-
-// The mesh of the melt: a distance-like field on sparse blocks, triangles, smoothed, with attributes.
+// The mesh of the melt: a field on sparse blocks, marching cubes, smoothed, with attributes. Everything is kept between
+// calls, so that extracting as much as the last time allocates nothing.
 class Surface {
 public:
     explicit Surface(Allocator& allocator);
 
-    // cellSize in spacings, smoothing in passes. Output is the same on any number of workers. Watertight.
+    // cellSize in spacings, smoothing in passes. Output is the same on any number of workers. Watertight and manifold.
+    // Throws std::bad_alloc when the allocator refuses; the arrays are then empty.
     void extract(const SurfaceInput& input, float cellSize, int smoothing, Tasks& tasks);
 
     Array<Vec3> positions, normals;
     Array<float> temperatures, liquidFractions;
     Array<uint8_t> materials;
-    Array<uint32_t> indices;
+    Array<uint32_t> indices; // three per triangle, counter-clockwise from outside
 
 private:
-    struct Block;
-    Allocator& allocator_;
+    // What a block brings to the mesh; its vertices and its indices are one range each.
+    struct BlockMesh {
+        uint32_t vertexBegin, vertexCount;
+        uint32_t indexBegin, indexCount;
+    };
+
+    void count(int block);
+    void emit(int block, const SurfaceInput& input);
+
+    SurfaceField field_;
+    MeshSmoother smoother_;
+    Array<BlockMesh> meshes_;
+    Array<uint16_t> edgeVertices_; // per block, axis and node: the vertex on that edge, counted from the block's first
+    Array<float> mobility_;        // per vertex: share of the smoothing that it takes, 0 in small drops
 };
 
 } // namespace thaw

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "base/types.h"
+
+namespace thaw {
+
+// Smoothing and normals of a closed manifold mesh.
+class MeshSmoother {
+public:
+    explicit MeshSmoother(Allocator& allocator);
+
+    // Reads who is next to whom. The mesh must be closed: each vertex then sees each neighbour in exactly one corner.
+    void connect(size_t vertexCount, const Array<uint32_t>& indices);
+    // mobility per vertex, 0..1: 0 stays where it is.
+    void smooth(Array<Vec3>& positions, const Array<float>& mobility, int passes, Tasks& tasks);
+    // Unit, outward.
+    void normals(const Array<Vec3>& positions, Array<Vec3>& out, Tasks& tasks) const;
+
+private:
+    void sweep(const Array<Vec3>& from, Array<Vec3>& to, const Array<float>& mobility, float step, Tasks& tasks) const;
+
+    struct Corner {
+        uint32_t next, previous; // the other two vertices of a triangle, in its order
+    };
+    Array<uint32_t> begins_;
+    Array<Corner> corners_;
+    Array<Vec3> other_;
+};
+
+} // namespace thaw

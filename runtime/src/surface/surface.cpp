@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "surface/surface.h"
+
+#include "surface/cubes.h"
+
+#include <algorithm>
+
+namespace thaw {
+namespace {
+
+constexpr int kSide = SurfaceField::kSide, kNodes = SurfaceField::kNodes;
+constexpr int kWide = kSide + 1, kWideNodes = kWide * kWide * kWide; // a block's cells have their last corners next door
+
+int nodeAt(int x, int y, int z) { return (z * kSide + y) * kSide + x; }
+int wideAt(int x, int y, int z) { return (z * kWide + y) * kWide + x; }
+constexpr int kWideStep[3] = {1, kWide, kWide * kWide};
+
+// One channel on the nodes of all the block's cells.
+void readWide(const SurfaceField& field, int block, SurfaceField::Channel channel, float* out) {
+    const auto& upper = field.block(block).upper;
+    for (int n = 0; n < 8; ++n) {
+        const float* from = upper[n] < 0 ? nullptr : field.values(upper[n], channel);
+        int x0 = n & 1 ? kSide : 0, y0 = n & 2 ? kSide : 0, z0 = n & 4 ? kSide : 0;
+        for (int z = z0; z < (n & 4 ? kWide : kSide); ++z)
+            for (int y = y0; y < (n & 2 ? kWide : kSide); ++y)
+                for (int x = x0; x < (n & 1 ? kWide : kSide); ++x)
+                    out[wideAt(x, y, z)] = from ? from[nodeAt(x - x0, y - y0, z - z0)] : 0;
+    }
+}
+
+bool inside(float fill) { return fill >= SurfaceField::kIso; }
+
+// Which corners of the cell are inside, a bit each.
+int cubeCase(const float* fill, int node) {
+    int bits = 0;
+    for (int c = 0; c < 8; ++c)
+        bits |= inside(fill[node + (c & 1) * kWideStep[0] + (c >> 1 & 1) * kWideStep[1] + (c >> 2) * kWideStep[2]]) << c;
+    return bits;
+}
+
+// f(x, y, z, axis) for the edges of the block's own nodes that cross the surface, in the order of their vertices.
+template <class F> void forCrossings(const float* fill, F&& f) {
+    for (int z = 0; z < kSide; ++z)
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                int node = wideAt(x, y, z);
+                bool here = inside(fill[node]);
+                for (int axis = 0; axis < 3; ++axis)
+                    if (here != inside(fill[node + kWideStep[axis]])) f(x, y, z, axis);
+            }
+}
+
+template <class F> void forCells(const float* fill, F&& f) {
+    for (int z = 0; z < kSide; ++z)
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x)
+                if (int bits = cubeCase(fill, wideAt(x, y, z)); bits != 0 && bits != 255) f(x, y, z, bits);
+}
+
+} // namespace
+
+Surface::Surface(Allocator& allocator)
+    : positions(allocator), normals(allocator), temperatures(allocator), liquidFractions(allocator),
+      materials(allocator), indices(allocator), field_(allocator), smoother_(allocator), meshes_(allocator),
+      edgeVertices_(allocator), mobility_(allocator) {}
+
+void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, Tasks& tasks) {
+    positions.clear(), normals.clear(), temperatures.clear(), liquidFractions.clear(), materials.clear(), indices.clear();
+
+    field_.build(input, cellSize * input.spacing, tasks);
+    int blocks = field_.blockCount();
+    meshes_.resizeRaw(blocks);
+    edgeVertices_.resizeRaw(size_t(blocks) * 3 * kNodes);
+    tasks.forBlocks(blocks, 4, [&](int begin, int end, int, int) {
+        for (int b = begin; b < end; ++b) count(b);
+    });
+
+    uint32_t vertexSum = 0, indexSum = 0;
+    for (BlockMesh& m : meshes_) {
+        m.vertexBegin = vertexSum, m.indexBegin = indexSum;
+        vertexSum += m.vertexCount, indexSum += m.indexCount;
+    }
+    normals.resizeRaw(vertexSum);
+    temperatures.resizeRaw(vertexSum);
+    liquidFractions.resizeRaw(vertexSum);
+    materials.resizeRaw(vertexSum);
+    mobility_.resizeRaw(vertexSum);
+    positions.resizeRaw(vertexSum);
+    indices.resizeRaw(indexSum);
+    tasks.forBlocks(blocks, 4, [&](int begin, int end, int, int) {
+        for (int b = begin; b < end; ++b)
+            if (meshes_[b].vertexCount + meshes_[b].indexCount) emit(b, input);
+    });
+
+    smoother_.connect(positions.size(), indices);
+    smoother_.smooth(positions, mobility_, smoothing, tasks);
+    smoother_.normals(positions, normals, tasks);
+}
+
+void Surface::count(int block) {
+    BlockMesh& mesh = meshes_[block];
+    mesh = {};
+    float fill[kWideNodes];
+    readWide(field_, block, SurfaceField::kFill, fill);
+    int insideCount = 0;
+    for (float f : fill) insideCount += inside(f);
+    if (insideCount == 0 || insideCount == kWideNodes) return;
+    uint16_t* edges = edgeVertices_.data() + size_t(block) * 3 * kNodes;
+    forCrossings(fill, [&](int x, int y, int z, int axis) {
+        edges[axis * kNodes + nodeAt(x, y, z)] = uint16_t(mesh.vertexCount++);
+    });
+    forCells(fill, [&](int, int, int, int bits) { mesh.indexCount += 3u * cubeCases().triangleCount[bits]; });
+}
+
+void Surface::emit(int block, const SurfaceInput& input) {
+    const SurfaceField::Block& place = field_.block(block);
+    const BlockMesh& mesh = meshes_[block];
+    float fill[kWideNodes], temperature[kWideNodes], liquid[kWideNodes], company[kWideNodes];
+    readWide(field_, block, SurfaceField::kFill, fill);
+    readWide(field_, block, SurfaceField::kTemperature, temperature);
+    readWide(field_, block, SurfaceField::kLiquid, liquid);
+    readWide(field_, block, SurfaceField::kCompany, company);
+
+    const int32_t* members = field_.members(place);
+    int memberCount = place.end - place.begin;
+    bool oneMaterial = true;
+    for (int k = 1; k < memberCount; ++k) oneMaterial &= input.materials[members[k]] == input.materials[members[0]];
+    auto nearestMaterial = [&](Vec3 p) {
+        float best = INFINITY;
+        uint8_t material = 0;
+        for (int k = 0; k < memberCount; ++k) {
+            Vec3 d = input.positions[members[k]].xyz() - p;
+            if (float d2 = dot(d, d); d2 < best) best = d2, material = input.materials[members[k]];
+        }
+        return material;
+    };
+
+    uint32_t v = mesh.vertexBegin;
+    forCrossings(fill, [&](int x, int y, int z, int axis) {
+        int a = wideAt(x, y, z), b = a + kWideStep[axis];
+        // Clear of the nodes, so that no triangle is without area.
+        float t = std::clamp((SurfaceField::kIso - fill[a]) / (fill[b] - fill[a]), 0.02f, 0.98f);
+        auto mean = [&](const float* sums) { return (sums[a] + t * (sums[b] - sums[a])) / (fill[a] + t * (fill[b] - fill[a])); };
+        double at[3] = {double(place.x) * kSide + x, double(place.y) * kSide + y, double(place.z) * kSide + z};
+        at[axis] += t;
+        double cell = field_.cell();
+        positions[v] = {float(at[0] * cell), float(at[1] * cell), float(at[2] * cell)};
+        temperatures[v] = mean(temperature);
+        liquidFractions[v] = std::clamp(mean(liquid), 0.0f, 1.0f);
+        mobility_[v] = SurfaceField::mobility(mean(company));
+        materials[v] = oneMaterial ? input.materials[members[0]] : nearestMaterial(positions[v]);
+        ++v;
+    });
+
+    const CubeCases& cases = cubeCases();
+    uint32_t* out = indices.data() + mesh.indexBegin;
+    forCells(fill, [&](int x, int y, int z, int bits) {
+        for (int k = 0; k < 3 * cases.triangleCount[bits]; ++k) {
+            int edge = cases.triangles[bits][k], corner = cases.edgeStart[edge];
+            int ex = x + (corner & 1), ey = y + (corner >> 1 & 1), ez = z + (corner >> 2);
+            int owner = place.upper[(ex == kSide) | (ey == kSide) << 1 | (ez == kSide) << 2];
+            size_t slot = size_t(owner) * 3 * kNodes + (edge / 4) * kNodes + nodeAt(ex % kSide, ey % kSide, ez % kSide);
+            *out++ = meshes_[owner].vertexBegin + edgeVertices_[slot];
+        }
+    });
+}
+
+} // namespace thaw
