@@ -51,8 +51,34 @@ public:
     // How many sub-steps depth (G = g H dt^2 / dx^2) and approach speed ask for in a step of dt, at most `limit`.
     static int subStepsWanted(const Particles& particles, float dt, Vec3 gravity, float spacing, int limit);
 
+    static constexpr int kContacts = 4; // walls that a mover feels at once, the nearest
+
 private:
+    void holdAtWalls(size_t i, Vec4& velocity, float h, float dt) const;
+    void applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end);
+
+    // What one block of rows found, put together in block order so that workers do not change the bits.
+    struct BlockSums {
+        double a = 0, b = 0;
+        float c = 0, d = 0;
+    };
+
     MotionStats stats_;
+    Array<Box> colliderBounds_;
+    Array<Vec4> contact_;            // kContacts per mover: xyz outward normal, w distance in m; nearest first
+    Array<uint8_t> contactAdhesive_; // per contact
+    Array<uint8_t> contactCount_;    // per mover
+    Array<Vec4> wallGradient_; // per mover: xyz gradient of the wall's volume fraction in 1/m, w C = density error
+    Array<Vec4>
+        trait_; // per row: x viscosity in Pa s (< 0: fixed), y cohesion in m/s^2, z mass in kg, w pressure in Pa
+    Array<Vec4> point_;        // per row: xyz position, w pressure change of this iteration in Pa
+    Array<float> coefficient_; // per entry: viscous pair coefficient, kg/m^2
+    Array<Vec4> wallDrag_;     // two per mover: xx yy zz, xy xz yz of the no-slip block, kg
+    Array<Vec4> diagonal_;     // per mover: 1 / diagonal of the viscous matrix, 1/kg
+    Array<Vec4> before_, residual_, direction_, image_;
+    Array<Vec4> target_; // per row: position at the end of the sub-step before particles are moved apart
+    Array<float> scalar_;
+    Array<BlockSums> sums_;
 };
 
 } // namespace thaw

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "motion/motion.h"
+#include "motion/numbers.h"
+#include "motion/pairs.h"
+
+#include <algorithm>
+
+namespace thaw {
+
+void Motion::forces(const MotionFrame& f) {
+    Particles& p = f.particles;
+    if (p.moverCount == 0) return;
+    const ForcePass pass{PairLists(f.neighbors), p.position.data(), trait_.data(),      f.volume, f.invDensity, f.dt,
+                         image_.data(),          diagonal_.data(),  coefficient_.data()};
+    const Vec3 down = normalizeOr(f.gravity, {});
+    f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
+        pairForces(pass, begin, end);
+        for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            const float spacing = p.position[i].w / kSupport, pull = f.materials[p.material[i]].def.adhesion * kGravity;
+            Vec3 v = p.velocity[i].xyz() + f.dt * f.gravity + image_[i].xyz() -
+                     (f.dt * f.invDensity[i] * trait_[i].w) * wallGradient_[i].xyz();
+            for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c) {
+                const Vec4 k = contact_[c];
+                if (!contactAdhesive_[c] || dot(k.xyz(), down) < -kFloorCosine) continue;
+                if (k.w <= kAdhesionFrom * spacing || k.w >= kAdhesionReach * spacing) continue;
+                const float fade = std::min(1.0f, (kAdhesionReach * spacing - k.w) / (kAdhesionFade * spacing));
+                v -= (pull * fade * f.dt) * k.xyz();
+            }
+            p.velocity[i].setXyz(v);
+        }
+    });
+}
+
+} // namespace thaw

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "motion/motion.h"
+
+#include "motion/numbers.h"
+#include "motion/walls.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thaw {
+namespace {
+
+struct Contact {
+    Vec3 normal;
+    float distance;
+    bool adhesive;
+};
+
+// The nearest walls in reach, nearest first; of equals the one with the lower index.
+int findContacts(const WallFinder& walls, Vec3 p, float reach, Contact (&out)[Motion::kContacts]) {
+    int n = 0;
+    walls.forNear([&](const Collider& c) {
+        Contact k{{}, 0, c.adhesive};
+        k.distance = c.distance(p, k.normal);
+        if (!(k.distance < reach)) return;
+        int at = n < Motion::kContacts ? n++ : n;
+        if (at == Motion::kContacts && !(k.distance < out[--at].distance)) return;
+        for (; at > 0 && k.distance < out[at - 1].distance; --at) out[at] = out[at - 1];
+        out[at] = k;
+    });
+    return n;
+}
+
+// Share of the support inside the walls and its gradient; overlapping walls by the product rule.
+void wallFraction(const Contact* c, int n, float h, float& fraction, Vec3& gradient) {
+    const WallTable& table = wallTable();
+    float f[Motion::kContacts], slope[Motion::kContacts], open = 1;
+    for (int k = 0; k < n; ++k) {
+        const float q = std::max(-1.0f, c[k].distance / h);
+        f[k] = q < 1 ? WallTable::lookup(table.fraction, q) : 0;
+        slope[k] = q < 1 ? -WallTable::lookup(table.gradient, q) / h : 0;
+        open *= 1 - f[k];
+    }
+    gradient = {};
+    for (int k = 0; k < n; ++k) {
+        if (slope[k] == 0) continue;
+        float others = slope[k];
+        for (int l = 0; l < n; ++l)
+            if (l != k) others *= 1 - f[l];
+        gradient += others * c[k].normal;
+    }
+    fraction = 1 - open;
+}
+
+} // namespace
+
+Motion::Motion(Allocator& a)
+    : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), wallGradient_(a), trait_(a), point_(a),
+      coefficient_(a), wallDrag_(a), diagonal_(a), before_(a), residual_(a), direction_(a), image_(a), target_(a),
+      scalar_(a), sums_(a) {}
+
+void Motion::begin(const MotionFrame& f) {
+    stats_ = {};
+    Particles& p = f.particles;
+    if (p.moverCount == 0) return;
+
+    const size_t rows = static_cast<size_t>(p.count) + Particles::kPadding;
+    const size_t movers = static_cast<size_t>(8 * f.neighbors.moverGroups);
+    contact_.resizeRaw(movers * kContacts), contactAdhesive_.resizeRaw(movers * kContacts);
+    contactCount_.resizeRaw(movers), wallGradient_.resizeRaw(movers), wallDrag_.resizeRaw(2 * movers);
+    diagonal_.resizeRaw(movers), before_.resizeRaw(movers), residual_.resizeRaw(movers), image_.resizeRaw(movers);
+    scalar_.resizeRaw(movers);
+    trait_.resizeRaw(rows), point_.resizeRaw(rows), direction_.resizeRaw(rows), target_.resizeRaw(rows);
+    coefficient_.resizeRaw(f.neighbors.entries.size());
+    sums_.assign(static_cast<size_t>(Tasks::blockCount(f.neighbors.moverGroups, kBlock)), {});
+
+    colliderBounds_.resizeRaw(static_cast<size_t>(f.colliderCount));
+    for (int c = 0; c < f.colliderCount; ++c)
+        if (f.colliders[c].alive) colliderBounds_[static_cast<size_t>(c)] = f.colliders[c].bounds();
+
+    // Rows that do not move: what their neighbours read of them. A particle that has just set still carries some
+    // pressure, which fades (taken away at once, its neighbours would fall freely for a frame).
+    const int still = static_cast<int>(rows) - p.moverCount;
+    f.tasks.forBlocks(still, 8 * kBlock, [&](int begin, int end, int, int) {
+        for (int r = begin; r < end; ++r) {
+            const size_t i = static_cast<size_t>(p.moverCount + r);
+            const Vec3 x = p.position[i].xyz();
+            const bool real = p.moverCount + r < p.count;
+            trait_[i] = {-1, real ? f.materials[p.material[i]].def.cohesion * (0.1f * kGravity) : 0.0f, p.velocity[i].w,
+                         p.pressure[i]};
+            p.velocity[i].setXyz({});
+            point_[i] = {x.x, x.y, x.z, 0};
+            direction_[i] = {};
+            target_[i] = p.position[i];
+        }
+    });
+
+    const float shear = shearMoment(), bulk = bulkStiffness(), fold = pressureFold(f.subSteps) * f.dt;
+    const float stepTime = f.dt * static_cast<float>(f.subSteps);
+    f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int block, int) {
+        const int last = std::min(8 * end, p.moverCount);
+        Box around;
+        float reach = 0;
+        for (int r = 8 * begin; r < last; ++r) {
+            const Vec4 x = p.position[static_cast<size_t>(r)];
+            around.grow(x.xyz());
+            reach = std::max(reach, std::max(1.0f, kAdhesionReach / kSupport) * x.w);
+        }
+        around.lower -= Vec3{reach, reach, reach}, around.upper += Vec3{reach, reach, reach};
+        WallFinder walls;
+        walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around);
+
+        BlockSums sums;
+        // Neighbours in memory mostly share material and liquid fraction: the exponential is kept.
+        int material = -1;
+        float phi = -1, viscosity = 0;
+        for (int r = 8 * begin; r < last; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            const Vec3 x = p.position[i].xyz();
+            const float h = p.position[i].w, spacing = h / kSupport, density = 1 / f.invDensity[i];
+
+            Contact found[kContacts];
+            const int n =
+                walls.empty() ? 0 : findContacts(walls, x, std::max(1.0f, kAdhesionReach / kSupport) * h, found);
+            contactCount_[i] = static_cast<uint8_t>(n);
+            for (int k = 0; k < n; ++k) {
+                const size_t c = i * kContacts + static_cast<size_t>(k);
+                contact_[c] = {found[k].normal.x, found[k].normal.y, found[k].normal.z, found[k].distance};
+                contactAdhesive_[c] = found[k].adhesive;
+            }
+            float solid = 0;
+            Vec3 gradient;
+            if (n) wallFraction(found, n, h, solid, gradient);
+            const float error = f.neighbors.volumeFraction[i] + solid - 1;
+            wallGradient_[i] = {gradient.x, gradient.y, gradient.z, error};
+            sums.a += std::max(error, 0.0f), sums.c = std::max(sums.c, error);
+
+            // dC/dP of this particle's own pressure. Between fixed neighbours it grows without bound and winds the
+            // pressure up, which the next warm start turns into 20 m/s (BAKEOFF2 A1): so it is capped, and what was
+            // wound up with a larger one is scaled down. Not where compressed: there the pressure is needed.
+            const Vec4 own = f.neighbors.gradientSum[i];
+            const Vec3 sum = own.xyz() + gradient;
+            float stiffness = 1 / (dot(sum, sum) * f.invDensity[i] + f.volume[i] * own.w + 1e-30f);
+            stiffness = std::min(stiffness, kStiffnessCap * bulk * density * spacing * spacing);
+            float pressure = std::max(p.pressure[i], 0.0f);
+            if (p.stiffness[i] > 0 && error < kRescaleBelow) pressure *= std::min(1.0f, stiffness / p.stiffness[i]);
+            p.pressure[i] = pressure, p.stiffness[i] = stiffness;
+
+            if (p.material[i] != material || p.liquidFraction[i] != phi) {
+                material = p.material[i], phi = p.liquidFraction[i];
+                viscosity = f.materials[material].viscosity(phi);
+            }
+            const float wanted = viscosity * std::max(1.0f, p.velocityChange[i].w);
+            const float floor = apparentFloor(density, spacing, stepTime, length(p.velocity[i].xyz()));
+            if (wanted < floor) sums.d = std::max(sums.d, floor);
+            trait_[i] = {std::max(wanted, floor) / shear + fold * pressure,
+                         f.materials[material].def.cohesion * (0.1f * kGravity), p.velocity[i].w, pressure};
+            point_[i] = {x.x, x.y, x.z, 0};
+        }
+        sums_[static_cast<size_t>(block)] = sums;
+    });
+
+    double total = 0;
+    for (const BlockSums& s : sums_) {
+        total += s.a;
+        stats_.maxCompression = std::max(stats_.maxCompression, s.c);
+        stats_.apparentViscosity = std::max(stats_.apparentViscosity, s.d);
+    }
+    stats_.meanCompression = static_cast<float>(total / p.moverCount);
+}
+
+void Motion::holdAtWalls(size_t i, Vec4& velocity, float h, float dt) const {
+    const float spacing = h / kSupport;
+    Vec3 v = velocity.xyz();
+    for (size_t c = i * kContacts, end = c + contactCount_[i]; c < end; ++c) {
+        const Vec4 k = contact_[c];
+        const float gap = k.w - kWallStandoff * spacing;
+        float need = -gap / dt;
+        if (gap < 0) need = std::min(need, kWallRecovery * spacing / dt);
+        const float into = dot(k.xyz(), v);
+        if (into < need) v += (need - into) * k.xyz();
+    }
+    velocity.setXyz(v);
+}
+
+int Motion::subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spacing, int limit) {
+    if (p.moverCount == 0 || limit <= 1) return 1;
+    // Histograms over sub-steps wanted, so that single particles (one drop that lands, one spike of pressure) decide
+    // nothing: what lands as a drip needs no sub-steps (measured, 9 % compression at worst).
+    constexpr int kMost = 16, kApproachMost = 4;
+    int depth[kMost + 1] = {}, approach[kApproachMost + 1] = {};
+    float low = INFINITY, high = -INFINITY;
+    const Vec3 down = normalizeOr(gravity, {});
+    for (int r = 0; r < p.moverCount; ++r) {
+        const size_t i = static_cast<size_t>(r);
+        const Vec4 x = p.position[i];
+        const float along = dot(x.xyz(), down);
+        low = std::min(low, along), high = std::max(high, along);
+        const float d = x.w / kSupport, density = p.velocity[i].w / (d * d * d);
+        const float g = p.pressure[i] * dt * dt / (density * d * d);
+        int k = 1;
+        while (k < kMost && g > kDepthPerStep * static_cast<float>(k * k)) ++k;
+        ++depth[k];
+        if (!(p.flags[i] & kSurface)) {
+            const float moved = length(p.velocity[i].xyz()) * dt / d;
+            int a = 1;
+            while (a < kApproachMost && moved > kApproachPerStep * static_cast<float>(a)) ++a;
+            ++approach[a];
+        }
+    }
+    const float extent = (high - low + spacing) * length(gravity) * dt * dt / (spacing * spacing);
+    int deepest = 1;
+    while (deepest < kMost && extent > kDepthPerStep * static_cast<float>(deepest * deepest)) ++deepest;
+
+    const int few = std::max(8, p.moverCount / 100);
+    int wanted = 1;
+    for (int k = kMost, n = 0; k > 1; --k)
+        if ((n += depth[k]) >= few) {
+            wanted = std::min(k, deepest);
+            break;
+        }
+    for (int k = kApproachMost, n = 0; k > wanted; --k)
+        if ((n += approach[k]) >= 2 * few) {
+            wanted = k;
+            break;
+        }
+    return std::min(wanted, limit);
+}
+
+} // namespace thaw

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/kernel.h"
+
+#include <algorithm>
+
+// Numbers of the motion solve, with where they come from (BAKEOFF: measured at one step of 1/60 s, spacing 2 and 4 mm).
+namespace thaw {
+
+// Groups of 8 rows per task. Fixed, because sums are taken block by block.
+inline constexpr int kBlock = 32;
+// m/s^2, the unit of cohesion and adhesion: they are properties of the material, whatever the world's gravity.
+inline constexpr float kGravity = 9.81f;
+
+// Jacobi coefficient at most this many times the bulk value; warm pressure rescaled where the density error is below.
+inline constexpr float kStiffnessCap = 2, kRescaleBelow = 0.3f;
+
+// Adhesion acts from half a spacing to 4 (fading over the last 1.1): farther than a film is thick, or what leaves it
+// never comes back (33-69 % lost at the support's 2.2).
+inline constexpr float kAdhesionFrom = 0.5f, kAdhesionReach = 4, kAdhesionFade = 1.1f;
+// A wall whose normal is within this cosine of straight up is a floor: nothing hangs on it.
+inline constexpr float kFloorCosine = 0.7f;
+
+// Sub-steps: k = sqrt(G / kDepthPerStep), and so many spacings of travel in each.
+inline constexpr float kDepthPerStep = 15, kApproachPerStep = 1.5f;
+
+// Share of the density error taken back in a step. Feedback adds the velocity error / dt, so it falls with dt.
+inline float densityFeedback(int subSteps) { return subSteps <= 2 ? 0.3f : subSteps == 3 ? 0.2f : 0.1f; }
+inline float jacobiWeight(int subSteps) { return subSteps <= 3 ? 0.4f : 0.25f; }
+// Pressure P adds viscosity fold P dt: the geometry is frozen, and without it pressure directions are unstable above
+// P dt^2 / (rho dx^2) of about 1.
+inline float pressureFold(int subSteps) { return subSteps <= 2 ? 0.5f : 1.0f; }
+
+// Pa s. What moves faster than the geometry can follow is held together by this much at least.
+inline float apparentFloor(float density, float spacing, float stepTime, float speed) {
+    constexpr float kFloor = 0.6f, kMoving = 0.25f;
+    const float moved = speed * stepTime / spacing;
+    return kFloor * density * spacing * spacing / stepTime * std::min(1.0f, moved / kMoving);
+}
+
+} // namespace thaw

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "base/math.h"
+#include "motion/motion.h"
+#include "motion/numbers.h"
+#include "motion/pairs.h"
+#include "motion/walls.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thaw {
+namespace {
+
+constexpr float kTolerance = 1e-2f; // of the change that gravity makes in a step
+constexpr float kLeastGravity = 1;  // m/s^2, for that measure where there is none
+// A large region that turns liquid starts stiff and softens by this much a step: half of it gone after three.
+constexpr float kSofteningLog = -0.223143551f; // ln 0.8
+
+Vec3 divide(Vec3 a, Vec4 inverse) { return {a.x * inverse.x, a.y * inverse.y, a.z * inverse.z}; }
+
+} // namespace
+
+// image = (M + walls + pairs) velocity, for the movers of the groups.
+void Motion::applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end) {
+    const Particles& p = f.particles;
+    pairViscosity({PairLists(f.neighbors), p.position.data(), coefficient_.data(), velocity, image_.data()}, begin,
+                  end);
+    for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
+        const size_t i = static_cast<size_t>(r);
+        const Vec3 v = velocity[i].xyz();
+        Vec3 sum = image_[i].xyz() + trait_[i].z * v;
+        if (contactCount_[i]) {
+            const Vec4 a = wallDrag_[2 * i], b = wallDrag_[2 * i + 1];
+            sum += Vec3{a.x * v.x + b.x * v.y + b.y * v.z, b.x * v.x + a.y * v.y + b.z * v.z,
+                        b.y * v.x + b.z * v.y + a.z * v.z};
+        }
+        image_[i].setXyz(sum);
+    }
+}
+
+void Motion::viscosity(const MotionFrame& f) {
+    Particles& p = f.particles;
+    if (p.moverCount == 0) return;
+    const WallTable& table = wallTable();
+    const float shear = shearMoment();
+    const float scale = std::max(length(f.gravity), kLeastGravity) * f.dt;
+    const auto forMovers = [&](auto&& body) {
+        f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int block, int) {
+            sums_[static_cast<size_t>(block)] = {};
+            body(begin, end, std::min(8 * end, p.moverCount), sums_[static_cast<size_t>(block)]);
+        });
+    };
+    const auto total = [&](double BlockSums::*which) {
+        double sum = 0;
+        for (const BlockSums& s : sums_) sum += s.*which;
+        return sum;
+    };
+
+    // No-slip walls as if the liquid went on behind them with the velocity mirrored linearly, and the diagonal. The
+    // start is what the last solve did to the velocities.
+    forMovers([&](int begin, int, int last, BlockSums& sums) {
+        for (int r = 8 * begin; r < last; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            const float mass = trait_[i].z, h = p.position[i].w, nearest = kWallStandoff / kSupport;
+            Vec3 diagonal = diagonal_[i].xyz() + Vec3{mass, mass, mass};
+            if (contactCount_[i]) {
+                Vec4 a, b;
+                for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c) {
+                    const Vec4 k = contact_[c];
+                    const float q = k.w / h;
+                    if (q >= 1) continue;
+                    const float tangent = WallTable::lookup(table.tangent, std::max(q, nearest)) / std::max(q, nearest);
+                    const float normal = WallTable::lookup(table.normal, std::max(q, 0.0f)) - tangent;
+                    const float weight = f.dt * trait_[i].x * shear * f.volume[i] / (h * h);
+                    const float t = weight * tangent, s = weight * normal;
+                    a.x += t + s * k.x * k.x, a.y += t + s * k.y * k.y, a.z += t + s * k.z * k.z;
+                    b.x += s * k.x * k.y, b.y += s * k.x * k.z, b.z += s * k.y * k.z;
+                }
+                wallDrag_[2 * i] = a, wallDrag_[2 * i + 1] = b;
+                diagonal += a.xyz();
+            }
+            diagonal_[i] = {1 / diagonal.x, 1 / diagonal.y, 1 / diagonal.z, 0};
+            before_[i] = p.velocity[i];
+            p.velocity[i].setXyz(p.velocity[i].xyz() + p.velocityChange[i].xyz());
+            const double allowed = static_cast<double>(mass) * scale;
+            sums.a += allowed * allowed;
+        }
+    });
+    const double allowed = static_cast<double>(kTolerance) * kTolerance * total(&BlockSums::a);
+
+    forMovers([&](int begin, int end, int last, BlockSums& sums) {
+        applyViscosity(f, p.velocity.data(), begin, end);
+        for (int r = 8 * begin; r < last; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            const Vec3 res = trait_[i].z * before_[i].xyz() - image_[i].xyz(), z = divide(res, diagonal_[i]);
+            residual_[i].setXyz(res);
+            direction_[i] = {z.x, z.y, z.z, 0};
+            sums.a += static_cast<double>(dot(res, z)), sums.b += static_cast<double>(dot(res, res));
+        }
+    });
+    double rz = total(&BlockSums::a), rr = total(&BlockSums::b);
+
+    int iteration = 0;
+    for (; iteration < f.viscosityIterations && rr > allowed && rz > 0; ++iteration) {
+        forMovers([&](int begin, int end, int last, BlockSums& sums) {
+            applyViscosity(f, direction_.data(), begin, end);
+            for (int r = 8 * begin; r < last; ++r) {
+                const size_t i = static_cast<size_t>(r);
+                sums.a += static_cast<double>(dot(direction_[i].xyz(), image_[i].xyz()));
+            }
+        });
+        const double curvature = total(&BlockSums::a);
+        if (!(curvature > 0)) break;
+        const float along = static_cast<float>(rz / curvature);
+        forMovers([&](int begin, int, int last, BlockSums& sums) {
+            for (int r = 8 * begin; r < last; ++r) {
+                const size_t i = static_cast<size_t>(r);
+                p.velocity[i].setXyz(p.velocity[i].xyz() + along * direction_[i].xyz());
+                const Vec3 res = residual_[i].xyz() - along * image_[i].xyz(), z = divide(res, diagonal_[i]);
+                residual_[i].setXyz(res);
+                sums.a += static_cast<double>(dot(res, z)), sums.b += static_cast<double>(dot(res, res));
+            }
+        });
+        const double next = total(&BlockSums::a);
+        rr = total(&BlockSums::b);
+        const float keep = static_cast<float>(next / rz);
+        rz = next;
+        if (!(rr > allowed)) continue;
+        forMovers([&](int begin, int, int last, BlockSums&) {
+            for (int r = 8 * begin; r < last; ++r) {
+                const size_t i = static_cast<size_t>(r);
+                direction_[i].setXyz(divide(residual_[i].xyz(), diagonal_[i]) + keep * direction_[i].xyz());
+            }
+        });
+    }
+    stats_.viscosityIterations = iteration;
+    stats_.iterationsClipped = rr > allowed;
+
+    // A solve that met a number that is not finite must not spread it.
+    const bool sound = std::isfinite(rr) && std::isfinite(rz);
+    const float soften = detExp(kSofteningLog / static_cast<float>(std::max(1, f.subSteps)));
+    forMovers([&](int begin, int, int last, BlockSums&) {
+        for (int r = 8 * begin; r < last; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            if (!sound) p.velocity[i].setXyz(before_[i].xyz());
+            const Vec3 change = p.velocity[i].xyz() - before_[i].xyz();
+            p.velocityChange[i] = {change.x, change.y, change.z, std::max(1.0f, soften * p.velocityChange[i].w)};
+            holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
+        }
+    });
+}
+
+} // namespace thaw
