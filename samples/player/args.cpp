@@ -24,12 +24,12 @@ std::string plain(double value) {
 
 void checkRange(const std::string& name, double value, double lower, double upper, const char* unit) {
     if (value >= lower && value <= upper) return;
-    throw InputError(name + ": must be in " + plain(lower) + ".." + plain(upper) + (*unit ? " " : "") + unit + ", got " +
-                     plain(value));
+    throw InputError(name + ": must be in " + plain(lower) + ".." + plain(upper) + (*unit ? " " : "") + unit +
+                     ", got " + plain(value));
 }
 
-std::vector<double> parseNumbers(const std::string& name, const std::string& text, double lower, double upper, const char* unit,
-                                 size_t minCount, size_t maxCount) {
+std::vector<double> parseNumbers(const std::string& name, const std::string& text, double lower, double upper,
+                                 const char* unit, size_t minCount, size_t maxCount) {
     std::vector<double> out;
     size_t at = 0;
     while (at <= text.size()) {

@@ -22,8 +22,8 @@ constexpr double kFrameSeconds = 1.0 / 60.0;
 // Throws InputError "NAME: must be in lower..upper unit, got value"; NaN is refused too.
 void checkRange(const std::string& name, double value, double lower, double upper, const char* unit = "");
 // "2,4,8" to numbers, each checked. Throws InputError.
-std::vector<double> parseNumbers(const std::string& name, const std::string& text, double lower, double upper, const char* unit,
-                                 size_t minCount, size_t maxCount);
+std::vector<double> parseNumbers(const std::string& name, const std::string& text, double lower, double upper,
+                                 const char* unit, size_t minCount, size_t maxCount);
 struct PictureSize {
     int width = 960, height = 540;
 };

@@ -25,8 +25,8 @@ std::string csvText(std::string text) {
     return text;
 }
 
-// One case: the best of a few runs, as the machine's other work can only make a run slower. State hashes in work mode must
-// not differ between runs or thread counts; in milliseconds mode they follow the clock.
+// One case: the best of a few runs, as the machine's other work can only make a run slower. State hashes in work mode
+// must not differ between runs or thread counts; in milliseconds mode they follow the clock.
 int benchScenes(const Options& o) {
     checkRange("--runs", o.runs, 1, 1000);
     const std::vector<double> threadCounts = parseNumbers("--threads", o.threads, 1, 64, "", 1, 64);
@@ -39,7 +39,8 @@ int benchScenes(const Options& o) {
         if (!file) throw RunError(scene::oneLine(o.out, 400) + ": cannot be written");
     }
     std::ostream& out = o.out.empty() ? std::cout : file;
-    out << "scene,particles,threads,budget,seconds,run,p50_ms,p95_ms,p99_ms,max_ms,frames,frames_over,melted,status,hash\n";
+    out << "scene,particles,threads,budget,seconds,run,p50_ms,p95_ms,p99_ms,max_ms,frames,frames_over,melted,status,"
+           "hash\n";
     bool differs = false;
     for (const std::string& path : o.scenes) {
         const scene::Scene scene = scene::loadScene(path);
@@ -61,7 +62,8 @@ int benchScenes(const Options& o) {
                     Progress progress(report.name, frames, o.quiet);
                     for (int f = 1; f <= frames; ++f) {
                         if (timedStep(built.world.get(), budget, report) & thawStep_refused)
-                            throw RunError(std::string("a step was refused: ") + thawWorld_GetLastError(built.world.get()));
+                            throw RunError(std::string("a step was refused: ") +
+                                           thawWorld_GetLastError(built.world.get()));
                         progress.frame(f, report);
                     }
                     report.finish(built.world.get());
@@ -70,15 +72,17 @@ int benchScenes(const Options& o) {
                         hash = report.hash();
                         known = true;
                     }
-                    const std::string budgetText = budget.mode == thawBudget_work
-                                                       ? formatted("work %d/%d/%d", budget.work.subSteps,
-                                                                   budget.work.pressureIterations, budget.work.viscosityIterations)
-                                                       : formatted("%g ms", double(budget.milliseconds));
+                    const std::string budgetText =
+                        budget.mode == thawBudget_work
+                            ? formatted("work %d/%d/%d", budget.work.subSteps, budget.work.pressureIterations,
+                                        budget.work.viscosityIterations)
+                            : formatted("%g ms", double(budget.milliseconds));
                     out << csvText(report.name)
-                        << formatted(",%d,%d,%s,%g,%d,%.3f,%.3f,%.3f,%.3f,%d,%zu,%.5f,%u,%s\n", report.counters().particles,
-                                     report.threads, budgetText.c_str(), seconds, run, report.percentile(0.5),
-                                     report.percentile(0.95), report.percentile(0.99), report.percentile(1.0), frames,
-                                     report.framesOver(), double(report.counters().meltedFraction), report.statusUnion(),
+                        << formatted(",%d,%d,%s,%g,%d,%.3f,%.3f,%.3f,%.3f,%d,%zu,%.5f,%u,%s\n",
+                                     report.counters().particles, report.threads, budgetText.c_str(), seconds, run,
+                                     report.percentile(0.5), report.percentile(0.95), report.percentile(0.99),
+                                     report.percentile(1.0), frames, report.framesOver(),
+                                     double(report.counters().meltedFraction), report.statusUnion(),
                                      hashText(report.hash()).c_str());
                     out.flush();
                 }
@@ -98,8 +102,11 @@ void addBench(CLI::App& app, int& exitCode) {
     auto o = std::make_shared<Options>();
     command->add_option("scenes", o->scenes, "Scene files (JSON)")->required();
     command->add_option("--runs", o->runs, "Runs of each case")->capture_default_str();
-    CLI::Option* budgets = command->add_option("--budgets", o->budgets, "Budgets in ms, with commas between (default: the scene's)");
-    command->add_option("--work", o->work, "Fixed work instead: sub-steps,pressure,viscosity iterations; hashes must then agree")
+    CLI::Option* budgets =
+        command->add_option("--budgets", o->budgets, "Budgets in ms, with commas between (default: the scene's)");
+    command
+        ->add_option("--work", o->work,
+                     "Fixed work instead: sub-steps,pressure,viscosity iterations; hashes must then agree")
         ->excludes(budgets);
     command->add_option("--threads", o->threads, "Thread counts, with commas between")->capture_default_str();
     command->add_option("--seconds", o->seconds, "Time of the game, s (default: what the scene says)");
@@ -108,7 +115,8 @@ void addBench(CLI::App& app, int& exitCode) {
     command->callback([=, &exitCode] { exitCode = benchScenes(*o); });
 
     std::vector<BenchEntry> entries = benchEntries();
-    std::sort(entries.begin(), entries.end(), [](const BenchEntry& a, const BenchEntry& b) { return std::string(a.name) < b.name; });
+    std::sort(entries.begin(), entries.end(),
+              [](const BenchEntry& a, const BenchEntry& b) { return std::string(a.name) < b.name; });
     for (const BenchEntry& entry : entries) {
         CLI::App* extra = bench->add_subcommand(entry.name, entry.help);
         extra->prefix_command();

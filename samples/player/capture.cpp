@@ -54,8 +54,8 @@ int capture(const Options& o) {
         }
     }
     if (o.sheet) pictures.writeSheet((std::filesystem::path(o.out) / "sheet.png").string(), report.name);
-    std::printf("%s: %d pictures in %s, state hash %s\n", report.name.c_str(), index, scene::oneLine(o.out, 400).c_str(),
-                hashText(thawWorld_GetStateHash(built.world.get())).c_str());
+    std::printf("%s: %d pictures in %s, state hash %s\n", report.name.c_str(), index,
+                scene::oneLine(o.out, 400).c_str(), hashText(thawWorld_GetStateHash(built.world.get())).c_str());
     return kExitOk;
 }
 } // namespace
@@ -68,8 +68,10 @@ void addCapture(CLI::App& app, int& exitCode) {
     command->add_option("--size", o->size, "Pixels of a picture")->capture_default_str();
     command->add_option("--view", o->view, "shaded, temperature or phase")->capture_default_str();
     command->add_option("--out", o->out, "Folder for the pictures; made when it is not there")->required();
-    command->add_option("--work", o->work, "Work of a step: sub-steps,pressure,viscosity iterations")->capture_default_str();
-    command->add_option("--threads", o->threads, "Threads that take part, 1 to 64; changes no picture")->capture_default_str();
+    command->add_option("--work", o->work, "Work of a step: sub-steps,pressure,viscosity iterations")
+        ->capture_default_str();
+    command->add_option("--threads", o->threads, "Threads that take part, 1 to 64; changes no picture")
+        ->capture_default_str();
     command->add_flag("--sheet", o->sheet, "Also sheet.png with all pictures");
     command->add_flag("--quiet", o->quiet, "No progress on stderr");
     command->callback([=, &exitCode] { exitCode = capture(*o); });

@@ -27,7 +27,8 @@ std::string repairs(const thawMeshReport& r) {
 
 void printMesh(const scene::TriMesh& mesh, const thawMeshReport& r) {
     std::printf("    mesh: %zu triangles, %zu vertices, %u piece%s, %.4g cm^3, %.4g cm^2; %s\n", mesh.triangleCount(),
-                mesh.vertexCount(), r.components, r.components == 1 ? "" : "s", r.volume * 1e6, r.area * 1e4, repairs(r).c_str());
+                mesh.vertexCount(), r.components, r.components == 1 ? "" : "s", r.volume * 1e6, r.area * 1e4,
+                repairs(r).c_str());
 }
 
 int info(const std::string& file) {
@@ -40,42 +41,47 @@ int info(const std::string& file) {
 
     std::printf("%s (%s)\n", scene::oneLine(scene.name, 120).c_str(), scene::oneLine(file, 300).c_str());
     const scene::WorldSettings& w = scene.world;
-    std::printf("world: spacing %s m, gravity %s m/s^2, ambient %s K, convection %s W/(m^2 K), heat runs %s times as fast\n",
-                scene::shortest(w.particleSpacing).c_str(), vectorText(w.gravity).c_str(),
-                scene::shortest(w.ambientTemperature).c_str(), scene::shortest(w.convection).c_str(),
-                scene::shortest(w.thermalTimeScale).c_str());
+    std::printf(
+        "world: spacing %s m, gravity %s m/s^2, ambient %s K, convection %s W/(m^2 K), heat runs %s times as fast\n",
+        scene::shortest(w.particleSpacing).c_str(), vectorText(w.gravity).c_str(),
+        scene::shortest(w.ambientTemperature).c_str(), scene::shortest(w.convection).c_str(),
+        scene::shortest(w.thermalTimeScale).c_str());
     std::printf("particles: %d of at most %d, %.1f MB\n", c.particles, c.capacity, double(c.memoryBytes) / 1e6);
 
     std::printf("materials: %zu\n", scene.materials.size());
     for (const scene::Material& m : scene.materials) {
         const thawMaterialDef& d = m.def;
         std::printf("  %s (preset %s)\n", scene::oneLine(m.name, 80).c_str(), thawMaterialPresetName(m.preset));
-        std::printf("    melts %g to %g K, latent heat %g kJ/kg, density %g kg/m^3\n", double(d.solidus), double(d.liquidus),
-                    double(d.latentHeat) / 1e3, double(d.density));
+        std::printf("    melts %g to %g K, latent heat %g kJ/kg, density %g kg/m^3\n", double(d.solidus),
+                    double(d.liquidus), double(d.latentHeat) / 1e3, double(d.density));
         std::printf("    specific heat %g solid, %g liquid J/(kg K); conductivity %g solid, %g liquid W/(m K)\n",
                     double(d.specificHeatSolid), double(d.specificHeatLiquid), double(d.conductivitySolid),
                     double(d.conductivityLiquid));
-        std::printf("    viscosity %g solid, %g liquid Pa s; absorptivity %g, emissivity %g, cohesion %g, adhesion %g\n",
-                    double(d.viscositySolid), double(d.viscosityLiquid), double(d.absorptivity), double(d.emissivity),
-                    double(d.cohesion), double(d.adhesion));
+        std::printf(
+            "    viscosity %g solid, %g liquid Pa s; absorptivity %g, emissivity %g, cohesion %g, adhesion %g\n",
+            double(d.viscositySolid), double(d.viscosityLiquid), double(d.absorptivity), double(d.emissivity),
+            double(d.cohesion), double(d.adhesion));
     }
     std::printf("bodies: %zu\n", scene.bodies.size());
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
         const scene::Body& b = scene.bodies[i];
         thawBodyState state{};
         thawBody_GetState(world, built.bodies[i], &state);
-        std::printf("  %s: %s of %s, %d particles, %.4g g, %.2f K, from %s to %s m\n", scene::oneLine(b.name, 80).c_str(),
+        std::printf("  %s: %s of %s, %d particles, %.4g g, %.2f K, from %s to %s m\n",
+                    scene::oneLine(b.name, 80).c_str(),
                     b.shape.type == scene::ShapeType::mesh ? scene::oneLine(b.shape.meshFile, 120).c_str()
                                                            : scene::shapeName(b.shape.type),
-                    scene::oneLine(scene.materials[size_t(b.material)].name, 80).c_str(), state.particles, double(state.mass) * 1e3,
-                    double(state.meanTemperature), vectorText(state.lower).c_str(), vectorText(state.upper).c_str());
+                    scene::oneLine(scene.materials[size_t(b.material)].name, 80).c_str(), state.particles,
+                    double(state.mass) * 1e3, double(state.meanTemperature), vectorText(state.lower).c_str(),
+                    vectorText(state.upper).c_str());
         printMesh(meshes.bodies[i], built.bodyReports[i]);
     }
     std::printf("colliders: %zu\n", scene.colliders.size());
     for (size_t i = 0; i < scene.colliders.size(); ++i) {
         const scene::Collider& k = scene.colliders[i];
         std::printf("  %s: %s at %s m%s%s\n", scene::oneLine(k.name, 80).c_str(), scene::shapeName(k.shape.type),
-                    vectorText(k.placement.position).c_str(), k.adhesive ? ", melt clings" : "", k.occluder ? ", shades" : "");
+                    vectorText(k.placement.position).c_str(), k.adhesive ? ", melt clings" : "",
+                    k.occluder ? ", shades" : "");
         if (!meshes.colliders[i].indices.empty() && built.colliderReports[i].volume > 0.0)
             printMesh(meshes.colliders[i], built.colliderReports[i]);
     }
@@ -89,7 +95,8 @@ int info(const std::string& file) {
     const thawResult result = thawWorld_PreviewPlan(world, &budget, &plan);
     if (result != thawResult_ok) throw RunError(std::string("no plan: ") + thawResultString(result));
     std::printf("first step within %g ms: at most %d sub-steps, %d pressure, %d viscosity iterations\n",
-                double(budget.milliseconds), plan.work.subSteps, plan.work.pressureIterations, plan.work.viscosityIterations);
+                double(budget.milliseconds), plan.work.subSteps, plan.work.pressureIterations,
+                plan.work.viscosityIterations);
     for (int s = 0; s < thawStage_count; ++s)
         std::printf("  %-11s %-3s %s\n", thawStageName(thawStage(s)), plan.enabled[s] ? "on" : "off",
                     thawReasonString(plan.reason[s]));

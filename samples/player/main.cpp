@@ -10,10 +10,12 @@ int main(int argc, char** argv) {
     using namespace thaw::player;
     using thaw::scene::oneLine;
     CLI::App app{"thaw: objects that melt, drip, pool and set again\n"
-                 "Exit codes: 0 ok, 1 a run failed its check or a file could not be written, 2 bad input", "thaw"};
+                 "Exit codes: 0 ok, 1 a run failed its check or a file could not be written, 2 bad input",
+                 "thaw"};
     app.require_subcommand(1);
-    app.set_version_flag("--version", formatted("thaw %d.%d.%d (%s)", thawGetVersion() / 10000, thawGetVersion() / 100 % 100,
-                                                thawGetVersion() % 100, thawGetBuildString()));
+    app.set_version_flag("--version",
+                         formatted("thaw %d.%d.%d (%s)", thawGetVersion() / 10000, thawGetVersion() / 100 % 100,
+                                   thawGetVersion() % 100, thawGetBuildString()));
     int exitCode = kExitOk;
     addRun(app, exitCode);
     addCapture(app, exitCode);

@@ -58,7 +58,8 @@ double volumeOf(const TriMesh& mesh) {
     if (mesh.vertices.empty()) return 0.0;
     // Relative to the middle of the bounds: a small mesh far from the origin would otherwise cancel badly.
     const Bounds bounds = boundsOf(mesh);
-    const double c[3] = {0.5 * (double(bounds.lower.x) + bounds.upper.x), 0.5 * (double(bounds.lower.y) + bounds.upper.y),
+    const double c[3] = {0.5 * (double(bounds.lower.x) + bounds.upper.x),
+                         0.5 * (double(bounds.lower.y) + bounds.upper.y),
                          0.5 * (double(bounds.lower.z) + bounds.upper.z)};
     double sum = 0.0;
     for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
@@ -90,7 +91,8 @@ TriMesh makeBox(const thawVec3& size) {
     TriMesh mesh;
     for (int i = 0; i < 8; ++i)
         mesh.addVertex((i & 1 ? 0.5 : -0.5) * size.x, (i & 2 ? 0.5 : -0.5) * size.y, (i & 4 ? 0.5 : -0.5) * size.z);
-    constexpr uint32_t kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    constexpr uint32_t kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     for (const auto& q : kQuads) {
         mesh.addTriangle(q[0], q[1], q[2]);
         mesh.addTriangle(q[0], q[2], q[3]);
@@ -186,8 +188,8 @@ TriMesh makeCandle() {
         double angle, width, reach, thickness; // rad, rad, m below the rim, m
     };
     constexpr Drip kDrips[] = {
-        {0.35, 0.20, 0.062, 0.0021}, {1.45, 0.15, 0.030, 0.0015}, {2.70, 0.24, 0.084, 0.0025}, {4.05, 0.17, 0.044, 0.0018},
-        {5.10, 0.22, 0.025, 0.0016},
+        {0.35, 0.20, 0.062, 0.0021}, {1.45, 0.15, 0.030, 0.0015}, {2.70, 0.24, 0.084, 0.0025},
+        {4.05, 0.17, 0.044, 0.0018}, {5.10, 0.22, 0.025, 0.0016},
     };
     for (size_t i = 0; i < mesh.vertexCount(); ++i) {
         float* p = &mesh.vertices[i * 3];
@@ -195,8 +197,9 @@ TriMesh makeCandle() {
         const double outer = smoothStep(0.60 * kRadius, 0.97 * kRadius, r0); // the cup stays round
         double r = r0, y = y0;
         // Cast unevenly: a few low waves around and along, thicker toward the foot.
-        r *= 1.0 + outer * (0.014 * std::sin(2.0 * angle + 0.7 + 18.0 * y0) + 0.010 * std::sin(3.0 * angle - 1.1 - 31.0 * y0) +
-                            0.008 * std::sin(67.0 * y0 + 0.4) + 0.030 * (1.0 - smoothStep(0.0, 0.05, y0)));
+        r *= 1.0 + outer * (0.014 * std::sin(2.0 * angle + 0.7 + 18.0 * y0) +
+                            0.010 * std::sin(3.0 * angle - 1.1 - 31.0 * y0) + 0.008 * std::sin(67.0 * y0 + 0.4) +
+                            0.030 * (1.0 - smoothStep(0.0, 0.05, y0)));
         for (const Drip& drip : kDrips) {
             const double below = kHeight - y0;
             const double side = bump(wrapAngle(angle - drip.angle - 1.6 * below), drip.width);
@@ -206,7 +209,8 @@ TriMesh makeCandle() {
         }
         // The rim has sagged to one side, the cup with it by half.
         const double top = smoothStep(0.75 * kHeight, kHeight, y0);
-        y += top * (0.0011 * std::sin(angle + 0.6) + 0.0006 * std::sin(3.0 * angle + 2.0)) * smoothStep(0.0, kRadius, r0);
+        y += top * (0.0011 * std::sin(angle + 0.6) + 0.0006 * std::sin(3.0 * angle + 2.0)) *
+             smoothStep(0.0, kRadius, r0);
         const double lean = 0.0022 * (y0 / kHeight) * (y0 / kHeight);
         p[0] = float(r * std::cos(angle) + lean);
         p[1] = float(y);

@@ -42,8 +42,8 @@ TriMesh makeCylinder(float radius, float height); // axis y, centred
 TriMesh makeCone(float radius, float height);     // tip up, centred on half its height
 TriMesh makeTorus(float radius, float tubeRadius);
 
-// Turns a closed profile about the y axis. profile: (radius, height) pairs from the axis at the bottom, outside, to the axis
-// at the top; the first and last radius are taken as zero.
+// Turns a closed profile about the y axis. profile: (radius, height) pairs from the axis at the bottom, outside, to the
+// axis at the top; the first and last radius are taken as zero.
 struct ProfilePoint {
     double radius, height;
 };

@@ -46,7 +46,8 @@ struct Joiner {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
             throw std::runtime_error("has a vertex that is not finite");
         const float v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; // -0 becomes 0
-        const VertexKey key{{std::bit_cast<uint32_t>(v[0]), std::bit_cast<uint32_t>(v[1]), std::bit_cast<uint32_t>(v[2])}};
+        const VertexKey key{
+            {std::bit_cast<uint32_t>(v[0]), std::bit_cast<uint32_t>(v[1]), std::bit_cast<uint32_t>(v[2])}};
         const auto [it, fresh] = known.try_emplace(key, uint32_t(out.vertexCount()));
         if (fresh) out.vertices.insert(out.vertices.end(), v, v + 3);
         return it->second;
@@ -78,7 +79,8 @@ struct Joiner {
 };
 
 std::string oneLine(std::string text) {
-    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
     if (text.size() > 160) text = text.substr(0, 157) + "...";
     return text;
 }
@@ -104,10 +106,11 @@ TriMesh importMesh(const std::string& path) {
 
     Assimp::Importer importer;
     // Only shapes matter: what else a file holds is dropped before it is processed.
-    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
-                                aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-                                    aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
-                                    aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
+    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                                            aiComponent_COLORS | aiComponent_TEXCOORDS |
+                                                            aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+                                                            aiComponent_TEXTURES | aiComponent_LIGHTS |
+                                                            aiComponent_CAMERAS | aiComponent_MATERIALS);
     const aiScene* source = nullptr;
     try {
         source = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_Triangulate);

@@ -79,7 +79,8 @@ double Report::percentile(double share) const {
 }
 
 size_t Report::framesOver() const {
-    return size_t(std::count_if(milliseconds_.begin(), milliseconds_.end(), [&](double ms) { return ms > double(limitMs); }));
+    return size_t(
+        std::count_if(milliseconds_.begin(), milliseconds_.end(), [&](double ms) { return ms > double(limitMs); }));
 }
 
 uint32_t Report::statusUnion() const {
@@ -104,27 +105,29 @@ std::vector<std::string> Report::faults() const {
 std::string Report::table() const {
     const size_t n = std::max<size_t>(steps(), 1);
     const thawCounters& c = counters_;
-    std::string out = formatted("%s: %zu steps of 1/60 s, %d thread%s, ", name.c_str(), steps(), threads, threads == 1 ? "" : "s");
+    std::string out =
+        formatted("%s: %zu steps of 1/60 s, %d thread%s, ", name.c_str(), steps(), threads, threads == 1 ? "" : "s");
     out += budget.mode == thawBudget_milliseconds ? formatted("budget %g ms\n", double(budget.milliseconds))
                                                   : "fixed work\n";
     out += formatted("  particles      %d  (%d moving, %d at the surface), %.1f MB\n", c.particles, c.moving, c.surface,
                      double(c.memoryBytes) / 1e6);
-    out += formatted("  melted         %.1f %%  (%.1f to %.1f K)\n", 100.0 * double(c.meltedFraction), double(c.minTemperature),
-                     double(c.maxTemperature));
+    out += formatted("  melted         %.1f %%  (%.1f to %.1f K)\n", 100.0 * double(c.meltedFraction),
+                     double(c.minTemperature), double(c.maxTemperature));
     out += formatted("  step           p50 %.2f  p95 %.2f  p99 %.2f  max %.2f ms  (the first, %.2f ms, is counted)\n",
                      percentile(0.5), percentile(0.95), percentile(0.99), percentile(1.0),
                      milliseconds_.empty() ? 0.0 : milliseconds_.front());
-    out += formatted("  over %-9s %zu of %zu frames (%.2f %%)\n", formatted("%g ms", double(limitMs)).c_str(), framesOver(), steps(),
-                     100.0 * double(framesOver()) / double(n));
+    out += formatted("  over %-9s %zu of %zu frames (%.2f %%)\n", formatted("%g ms", double(limitMs)).c_str(),
+                     framesOver(), steps(), 100.0 * double(framesOver()) / double(n));
     out += formatted("  mass error     %.2e\n", ledger_.massError);
-    out += formatted("  energy error   %.2e  (absorbed %.4g J, emitted %.4g J, convected %.4g J)\n", ledger_.energyError,
-                     ledger_.absorbed, ledger_.emitted, ledger_.convected);
+    out += formatted("  energy error   %.2e  (absorbed %.4g J, emitted %.4g J, convected %.4g J)\n",
+                     ledger_.energyError, ledger_.absorbed, ledger_.emitted, ledger_.convected);
     out += formatted("  compression    %.2f %% mean, %.2f %% most; fastest %.2f m/s; viscosity floor %.3g Pa s\n",
                      100.0 * double(c.meanCompression), 100.0 * double(c.maxCompression), double(c.maxSpeed),
                      double(c.apparentViscosity));
     out += "  work a step    ";
-    out += formatted("%.1f sub-steps (most %d), %.1f pressure (%d), %.1f viscosity (%d), %.0f rays\n", subSteps_ / double(n),
-                     mostSubSteps_, pressure_ / double(n), mostPressure_, viscosity_ / double(n), mostViscosity_, rays_ / double(n));
+    out += formatted("%.1f sub-steps (most %d), %.1f pressure (%d), %.1f viscosity (%d), %.0f rays\n",
+                     subSteps_ / double(n), mostSubSteps_, pressure_ / double(n), mostPressure_, viscosity_ / double(n),
+                     mostViscosity_, rays_ / double(n));
     bool any = false;
     for (size_t b = 0; b < 32; ++b) {
         if (!statusCounts_[b]) continue;
@@ -160,7 +163,10 @@ std::string Report::json() const {
     root["budget"] = {{"mode", budget.mode == thawBudget_milliseconds ? "milliseconds" : "work"},
                       {"milliseconds", budget.milliseconds},
                       {"limitMilliseconds", limitMs}};
-    root["particles"] = {{"count", c.particles}, {"moving", c.moving}, {"fixed", c.fixed}, {"surface", c.surface},
+    root["particles"] = {{"count", c.particles},
+                         {"moving", c.moving},
+                         {"fixed", c.fixed},
+                         {"surface", c.surface},
                          {"capacity", c.capacity}};
     root["memoryBytes"] = c.memoryBytes;
     root["meltedFraction"] = c.meltedFraction;
@@ -192,8 +198,9 @@ std::string Report::json() const {
                       {"maxCompression", c.maxCompression},
                       {"meanCompression", c.meanCompression},
                       {"apparentViscosity", c.apparentViscosity}};
-    root["ledger"] = {{"massError", ledger_.massError}, {"energyError", ledger_.energyError}, {"massNow", ledger_.massNow},
-                      {"energyNow", ledger_.energyNow}, {"absorbed", ledger_.absorbed},       {"emitted", ledger_.emitted},
+    root["ledger"] = {{"massError", ledger_.massError}, {"energyError", ledger_.energyError},
+                      {"massNow", ledger_.massNow},     {"energyNow", ledger_.energyNow},
+                      {"absorbed", ledger_.absorbed},   {"emitted", ledger_.emitted},
                       {"convected", ledger_.convected}};
     Json status = Json::array();
     for (size_t b = 0; b < 32; ++b)
@@ -206,8 +213,9 @@ std::string Report::json() const {
 }
 
 std::string Report::csvHeader() const {
-    std::string out = "frame,time,ms,predicted_ms,status,particles,moving,surface,melted,sub_steps,pressure,viscosity,rays,"
-                      "max_speed,max_compression,max_temperature";
+    std::string out =
+        "frame,time,ms,predicted_ms,status,particles,moving,surface,melted,sub_steps,pressure,viscosity,rays,"
+        "max_speed,max_compression,max_temperature";
     for (int s = 0; s < thawStage_count; ++s) out += ",ms_" + std::string(thawStageName(thawStage(s)));
     return out + "\n";
 }
@@ -215,10 +223,10 @@ std::string Report::csvHeader() const {
 std::string Report::csvLine() const {
     const thawCounters& c = counters_;
     std::string out = formatted("%zu,%.6g,%.4f,%.4f,%u,%d,%d,%d,%.6g,%d,%d,%d,%d,%.6g,%.6g,%.6g", steps(), c.time,
-                                milliseconds_.empty() ? 0.0 : milliseconds_.back(), double(plan_.predictedMs), lastStatus_,
-                                c.particles, c.moving, c.surface, double(c.meltedFraction), c.subSteps, c.pressureIterations,
-                                c.viscosityIterations, c.rays, double(c.maxSpeed), double(c.maxCompression),
-                                double(c.maxTemperature));
+                                milliseconds_.empty() ? 0.0 : milliseconds_.back(), double(plan_.predictedMs),
+                                lastStatus_, c.particles, c.moving, c.surface, double(c.meltedFraction), c.subSteps,
+                                c.pressureIterations, c.viscosityIterations, c.rays, double(c.maxSpeed),
+                                double(c.maxCompression), double(c.maxTemperature));
     for (float ms : profile_.stage) out += formatted(",%.4f", double(ms));
     return out + "\n";
 }

@@ -61,6 +61,7 @@ std::string hashText(uint64_t hash);
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
 #endif
-std::string formatted(const char* format, ...);
+std::string
+formatted(const char* format, ...);
 
 } // namespace thaw::player

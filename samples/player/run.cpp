@@ -42,13 +42,17 @@ std::string within(const std::string& folder, const std::string& name) {
 
 void RunOptions::addTo(CLI::App& command) {
     command.add_option("--seconds", seconds, "Time of the game to run, s (default: what the scene says)");
-    CLI::Option* ms = command.add_option("--budget-ms", budgetMs, "Time a step may take, ms (default: what the scene says)");
-    command.add_option("--work", work, "Fixed work instead: sub-steps,pressure,viscosity iterations, such as 4,4,12")->excludes(ms);
+    CLI::Option* ms =
+        command.add_option("--budget-ms", budgetMs, "Time a step may take, ms (default: what the scene says)");
+    command.add_option("--work", work, "Fixed work instead: sub-steps,pressure,viscosity iterations, such as 4,4,12")
+        ->excludes(ms);
     command.add_option("--threads", threads, "Threads that take part, 1 to 64")->capture_default_str();
-    command.add_option("--out", out, "Folder for table.txt, table.json, pictures and meshes; made when it is not there");
-    command.add_option("--pictures", pictures, "How many pictures to spread over the run, the first and last frame among them");
+    command.add_option("--out", out,
+                       "Folder for table.txt, table.json, pictures and meshes; made when it is not there");
+    command.add_option("--pictures", pictures,
+                       "How many pictures to spread over the run, the first and last frame among them");
     command.add_option("--view", view, "What pictures show: shaded, temperature or phase")->capture_default_str();
-    command.add_option("--size", size, "Pixels of a picture")->capture_default_str();
+    command.add_option("--picture-size", size, "Pixels of a picture")->capture_default_str();
     command.add_option("--mesh", mesh, "Write the last surface: ply or obj");
     command.add_option("--json", json, "File for the report, for programs");
     command.add_option("--csv", csv, "File for one line a step");
@@ -101,8 +105,9 @@ Progress::~Progress() {
 void Progress::frame(int done, const Report& report) {
     if (quiet_ || (done % (terminal_ ? 6 : 60) != 0 && done != frames_)) return;
     std::fprintf(stderr, "%s%s: %.1f of %.1f s, %.1f %% melted, p50 %.2f ms, %zu frames over %s", terminal_ ? "\r" : "",
-                 name_.c_str(), done * kFrameSeconds, frames_ * kFrameSeconds, 100.0 * double(report.counters().meltedFraction),
-                 report.percentile(0.5), report.framesOver(), terminal_ ? "\033[K" : "\n");
+                 name_.c_str(), done * kFrameSeconds, frames_ * kFrameSeconds,
+                 100.0 * double(report.counters().meltedFraction), report.percentile(0.5), report.framesOver(),
+                 terminal_ ? "\033[K" : "\n");
     std::fflush(stderr);
     open_ = terminal_;
 }
@@ -115,10 +120,11 @@ int runScene(const scene::Scene& scene, const RunOptions& o) {
     checkRange("--most-over", o.mostOver, 0, 100, "%");
     const thawBudget budget = makeBudget(scene, o.budgetMs, o.work);
     const PictureView view = parseView("--view", o.view);
-    const PictureSize size = parseSize("--size", o.size);
+    const PictureSize size = parseSize("--picture-size", o.size);
     if (!o.mesh.empty() && o.mesh != "ply" && o.mesh != "obj")
         throw InputError("--mesh: must be ply or obj, got '" + oneLine(o.mesh, 40) + "'");
-    if (o.out.empty() && (o.pictures > 0 || !o.mesh.empty())) throw InputError("--pictures and --mesh need --out FOLDER");
+    if (o.out.empty() && (o.pictures > 0 || !o.mesh.empty()))
+        throw InputError("--pictures and --mesh need --out FOLDER");
 
     const scene::SceneMeshes meshes = scene::loadMeshes(scene);
     const scene::SceneWorld built = scene::buildWorld(scene, meshes, o.threads);
@@ -144,8 +150,9 @@ int runScene(const scene::Scene& scene, const RunOptions& o) {
         while (pictures && nextPicture < o.pictures) {
             const int due = o.pictures == 1 ? frames : int(int64_t(frames) * nextPicture / (o.pictures - 1));
             if (due > done) return;
-            const std::string caption = formatted("t = %.2f s   melted %.1f %%   p95 %.2f ms", done * kFrameSeconds,
-                                                  100.0 * double(report.counters().meltedFraction), report.percentile(0.95));
+            const std::string caption =
+                formatted("t = %.2f s   melted %.1f %%   p95 %.2f ms", done * kFrameSeconds,
+                          100.0 * double(report.counters().meltedFraction), report.percentile(0.95));
             pictures->take(world, view, caption, within(o.out, formatted("picture_%03d.png", nextPicture)));
             ++nextPicture;
         }
@@ -177,8 +184,8 @@ int runScene(const scene::Scene& scene, const RunOptions& o) {
     bool failed = !report.faults().empty();
     const double over = 100.0 * double(report.framesOver()) / double(frames);
     if (over > o.mostOver) {
-        std::fprintf(stderr, "thaw: %.2f %% of the frames are over %g ms, --most-over allows %g %%\n", over, double(report.limitMs),
-                     o.mostOver);
+        std::fprintf(stderr, "thaw: %.2f %% of the frames are over %g ms, --most-over allows %g %%\n", over,
+                     double(report.limitMs), o.mostOver);
         failed = true;
     }
     return failed ? kExitFailed : kExitOk;

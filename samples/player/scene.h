@@ -42,12 +42,12 @@ struct Placement {
 };
 
 struct WorldSettings {
-    float particleSpacing = 0.002f;      // m, range 1e-4..1
-    int maxParticles = 0;                // range 8..4000000; 0: as many as the bodies need and a tenth more
+    float particleSpacing = 0.002f;       // m, range 1e-4..1
+    int maxParticles = 0;                 // range 8..4000000; 0: as many as the bodies need and a tenth more
     thawVec3 gravity{0.0f, -9.81f, 0.0f}; // m/s^2, each within 1000
-    float ambientTemperature = 293.15f;  // K, range 100..10000
-    float convection = 10.0f;            // W/(m^2 K), range 0..1e4
-    float thermalTimeScale = 1.0f;       // range 0..1e5
+    float ambientTemperature = 293.15f;   // K, range 100..10000
+    float convection = 10.0f;             // W/(m^2 K), range 0..1e4
+    float thermalTimeScale = 1.0f;        // range 0..1e5
 };
 
 struct Material {
@@ -60,8 +60,8 @@ struct Body {
     std::string name;
     Shape shape; // not a plane
     Placement placement;
-    int material = 0;         // index into Scene::materials
-    float temperature = NAN;  // K, range 100..10000; NaN: ambient
+    int material = 0;        // index into Scene::materials
+    float temperature = NAN; // K, range 100..10000; NaN: ambient
 };
 
 struct Collider {
@@ -78,9 +78,9 @@ enum class SourceVisual { none, flame, glow };
 
 struct HeatSource {
     std::string name;
-    thawVec3 position{};    // m
-    float power = 20.0f;    // W, range -1e6..1e6
-    float radius = 0.005f;  // m, range 1e-4..10
+    thawVec3 position{};   // m
+    float power = 20.0f;   // W, range -1e6..1e6
+    float radius = 0.005f; // m, range 1e-4..10
     bool enabled = true;
     SourceVisual visual = SourceVisual::glow;
 };
@@ -100,8 +100,8 @@ struct Camera {
 };
 
 struct Look {
-    thawVec3 sunDirection{0.5f, 0.8f, 0.4f}; // toward the sun; unit length after loading
-    float exposure = 1.0f;                   // range 0.01..100
+    thawVec3 sunDirection{-0.62f, 0.66f, 0.36f}; // toward the sun, any length but 0; unit length after loading
+    float exposure = 1.0f;                       // range 0.01..100
 };
 
 struct Defaults {

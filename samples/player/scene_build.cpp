@@ -44,14 +44,16 @@ int capacityFor(const Scene& scene, const SceneMeshes& meshes) {
         const float extent = scale * std::max({bounds.upper.x - bounds.lower.x, bounds.upper.y - bounds.lower.y,
                                                bounds.upper.z - bounds.lower.z});
         if (extent > 2.0f)
-            hint = "; " + placeOf("bodies", largestBody) + " is " + shortest(extent) + " m long: if it is in millimetres give it scale 0.001";
+            hint = "; " + placeOf("bodies", largestBody) + " is " + shortest(extent) +
+                   " m long: if it is in millimetres give it scale 0.001";
         // 1.02: room for the difference between a volume and a filled lattice.
         const double needed = spacing * std::cbrt(1.02 * total / limit);
         char enough[40];
         std::snprintf(enough, sizeof enough, "%.3g", needed);
         throw InputError(messageAt(scene, "/world/particleSpacing",
-                                   shortest(spacing) + " m gives about " + rounded(total) + " particles, the maximum is " +
-                                       std::to_string(limit) + " (" + enough + " m would do" + hint + ")"));
+                                   shortest(spacing) + " m gives about " + rounded(total) +
+                                       " particles, the maximum is " + std::to_string(limit) + " (" + enough +
+                                       " m would do" + hint + ")"));
     }
     if (scene.world.maxParticles) return scene.world.maxParticles;
     return int(std::clamp(1.1 * total + 256.0, 8.0, double(kMaxParticles)));
@@ -68,13 +70,20 @@ int capacityFor(const Scene& scene, const SceneMeshes& meshes) {
 
 TriMesh makeShape(const Shape& shape, const std::string& directory) {
     switch (shape.type) {
-    case ShapeType::plane: return {};
-    case ShapeType::box: return makeBox(shape.size);
-    case ShapeType::sphere: return makeSphere(shape.radius);
-    case ShapeType::cylinder: return makeCylinder(shape.radius, shape.height);
-    case ShapeType::cone: return makeCone(shape.radius, shape.height);
-    case ShapeType::torus: return makeTorus(shape.radius, shape.tubeRadius);
-    case ShapeType::mesh: return importMesh(resolved(shape.meshFile, directory));
+    case ShapeType::plane:
+        return {};
+    case ShapeType::box:
+        return makeBox(shape.size);
+    case ShapeType::sphere:
+        return makeSphere(shape.radius);
+    case ShapeType::cylinder:
+        return makeCylinder(shape.radius, shape.height);
+    case ShapeType::cone:
+        return makeCone(shape.radius, shape.height);
+    case ShapeType::torus:
+        return makeTorus(shape.radius, shape.tubeRadius);
+    case ShapeType::mesh:
+        return importMesh(resolved(shape.meshFile, directory));
     }
     return {};
 }
@@ -87,8 +96,8 @@ SceneMeshes loadMeshes(const Scene& scene) {
         } catch (const InputError&) {
             throw;
         } catch (const std::exception& e) {
-            throw InputError(messageAt(scene, placeOf(list, index) + "/mesh",
-                                       oneLine(shape.meshFile, 120) + ": " + e.what()));
+            throw InputError(
+                messageAt(scene, placeOf(list, index) + "/mesh", oneLine(shape.meshFile, 120) + ": " + e.what()));
         }
     };
     for (size_t i = 0; i < scene.bodies.size(); ++i) out.bodies.push_back(load("bodies", i, scene.bodies[i].shape));

@@ -86,8 +86,8 @@ public:
             what += ", the file ends too early";
         else if (!token.empty())
             what += " near '" + tail(token) + "'";
-        throw InputError(oneLine(file_, 400) + ":" + std::to_string(line) + ":" + std::to_string(std::max<size_t>(column, 1)) +
-                         ": " + what);
+        throw InputError(oneLine(file_, 400) + ":" + std::to_string(line) + ":" +
+                         std::to_string(std::max<size_t>(column, 1)) + ": " + what);
     }
 
     json root;
@@ -149,7 +149,8 @@ size_t editDistance(const std::string& a, const std::string& b) {
         row[0] = i;
         for (size_t j = 1; j <= b.size(); ++j) {
             const size_t above = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]))});
+            row[j] =
+                std::min({row[j] + 1, row[j - 1] + 1, diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]))});
             diagonal = above;
         }
     }
@@ -182,10 +183,12 @@ public:
     double checked(const json& value, const std::string& place, double lower, double upper, const char* unit,
                    const char* hint = "") const {
         const std::string tailText = std::string(*unit ? " " : "") + unit;
-        if (!value.is_number()) bad(place, "must be a number" + (*unit ? " (" + std::string(unit) + ")" : "") + ", got " + brief(value));
+        if (!value.is_number())
+            bad(place, "must be a number" + (*unit ? " (" + std::string(unit) + ")" : "") + ", got " + brief(value));
         const double got = value.get<double>();
         if (!(got >= lower && got <= upper))
-            bad(place, "must be in " + number(lower) + ".." + number(upper) + tailText + ", got " + brief(value) + hint);
+            bad(place,
+                "must be in " + number(lower) + ".." + number(upper) + tailText + ", got " + brief(value) + hint);
         return got;
     }
     void real(const char* key, float& out, double lower, double upper, const char* unit = "", const char* hint = "") {
@@ -228,7 +231,8 @@ public:
         out = {float(v[0]), float(v[1]), float(v[2])};
         return true;
     }
-    template <class Enum> void choice(const char* key, Enum& out, std::initializer_list<std::pair<const char*, Enum>> choices) {
+    template <class Enum>
+    void choice(const char* key, Enum& out, std::initializer_list<std::pair<const char*, Enum>> choices) {
         const json* value = find(key);
         if (!value) return;
         std::string names;
@@ -281,7 +285,8 @@ void readPlacement(Reader& r, Placement& out) {
     if (r.numbers("rotation", 4, -1.01, 1.01, "", q)) {
         if (turned) r.bad(r.at("rotation"), "give either rotation or rotationDegrees");
         const double length2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-        if (std::abs(length2 - 1.0) > 0.02) r.bad(r.at("rotation"), "must have length 1, has " + number(std::sqrt(length2)));
+        if (std::abs(length2 - 1.0) > 0.02)
+            r.bad(r.at("rotation"), "must have length 1, has " + number(std::sqrt(length2)));
         // A float quaternion that is of unit length already stays as it is, so that what was saved reads back the same.
         const double factor = std::abs(length2 - 1.0) > 1e-6 ? 1.0 / std::sqrt(length2) : 1.0;
         out.rotation = {float(q[0] * factor), float(q[1] * factor), float(q[2] * factor), float(q[3] * factor)};
@@ -339,7 +344,8 @@ void readShape(Reader& r, Shape& out, bool planeAllowed) {
         s.real("radius", out.radius, kLeast, kMost, "m");
         break;
     case ShapeType::plane:
-    case ShapeType::mesh: break;
+    case ShapeType::mesh:
+        break;
     }
     s.done();
 }
@@ -357,7 +363,8 @@ std::string presetNames() {
     return out;
 }
 
-Material readMaterial(const json& value, const std::string& place, const std::string& file, const std::string& fallbackName) {
+Material readMaterial(const json& value, const std::string& place, const std::string& file,
+                      const std::string& fallbackName) {
     Reader r(value, place, file);
     Material out;
     out.name = fallbackName;
@@ -374,7 +381,8 @@ Material readMaterial(const json& value, const std::string& place, const std::st
     r.kelvin("solidus", d.solidus);
     r.kelvin("liquidus", d.liquidus);
     if (d.solidus > d.liquidus)
-        r.bad(r.at("solidus"), "must not be above liquidus (" + shortest(d.liquidus) + " K), got " + shortest(d.solidus));
+        r.bad(r.at("solidus"),
+              "must not be above liquidus (" + shortest(d.liquidus) + " K), got " + shortest(d.solidus));
     r.real("latentHeat", d.latentHeat, 0.0, 1e7, "J/kg");
     r.real("specificHeatSolid", d.specificHeatSolid, 1.0, 1e5, "J/(kg K)");
     r.real("specificHeatLiquid", d.specificHeatLiquid, 1.0, 1e5, "J/(kg K)");
@@ -389,8 +397,8 @@ Material readMaterial(const json& value, const std::string& place, const std::st
     r.real("setFraction", d.setFraction, 0.0, 1.0);
     r.real("releaseFraction", d.releaseFraction, 0.0, 1.0);
     if (d.setFraction > d.releaseFraction)
-        r.bad(r.at("setFraction"),
-              "must not be above releaseFraction (" + shortest(d.releaseFraction) + "), got " + shortest(d.setFraction));
+        r.bad(r.at("setFraction"), "must not be above releaseFraction (" + shortest(d.releaseFraction) + "), got " +
+                                       shortest(d.setFraction));
     r.vector("color", d.color, 0.0, 1.0);
     r.done();
     return out;
@@ -460,7 +468,8 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         r.done();
     }
     root.list("materials", 255, [&](const json& value, const std::string& place) {
-        scene.materials.push_back(readMaterial(value, place, file, "material " + std::to_string(scene.materials.size())));
+        scene.materials.push_back(
+            readMaterial(value, place, file, "material " + std::to_string(scene.materials.size())));
     });
     checkNames(file, "materials", scene.materials);
     root.list("bodies", 65535, [&](const json& value, const std::string& place) {

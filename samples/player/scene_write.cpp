@@ -64,10 +64,17 @@ template <class Item, class Function> std::string list(const std::vector<Item>& 
 void addShape(ObjectText& o, const Shape& shape) {
     std::string text = "{\"type\": " + quoted(shapeName(shape.type));
     switch (shape.type) {
-    case ShapeType::mesh: o.add("mesh", quoted(shape.meshFile)); return;
-    case ShapeType::plane: break;
-    case ShapeType::box: text += ", \"size\": " + vector(shape.size); break;
-    case ShapeType::sphere: text += ", \"radius\": " + shortest(shape.radius); break;
+    case ShapeType::mesh:
+        o.add("mesh", quoted(shape.meshFile));
+        return;
+    case ShapeType::plane:
+        break;
+    case ShapeType::box:
+        text += ", \"size\": " + vector(shape.size);
+        break;
+    case ShapeType::sphere:
+        text += ", \"radius\": " + shortest(shape.radius);
+        break;
     case ShapeType::cylinder:
     case ShapeType::cone:
         text += ", \"radius\": " + shortest(shape.radius) + ", \"height\": " + shortest(shape.height);
@@ -120,13 +127,20 @@ std::string materialText(const Material& material, int indent) {
 
 const char* shapeName(ShapeType type) {
     switch (type) {
-    case ShapeType::plane: return "plane";
-    case ShapeType::box: return "box";
-    case ShapeType::sphere: return "sphere";
-    case ShapeType::cylinder: return "cylinder";
-    case ShapeType::cone: return "cone";
-    case ShapeType::torus: return "torus";
-    case ShapeType::mesh: return "mesh";
+    case ShapeType::plane:
+        return "plane";
+    case ShapeType::box:
+        return "box";
+    case ShapeType::sphere:
+        return "sphere";
+    case ShapeType::cylinder:
+        return "cylinder";
+    case ShapeType::cone:
+        return "cone";
+    case ShapeType::torus:
+        return "torus";
+    case ShapeType::mesh:
+        return "mesh";
     }
     return "";
 }
