@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "world_fixture.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace {
+
+// A small candle stump on a floor under a strong source: melts within seconds.
+void stump(WorldFixture& f, float timeScale = 60) {
+    f.def.thermalTimeScale = timeScale;
+    f.create();
+    f.addMaterial();
+    f.addFloor();
+    f.addBox({-0.012f, 0, -0.012f}, {0.012f, 0.04f, 0.012f});
+    f.addSource({0, 0.05f, 0}, 30);
+}
+
+} // namespace
+
+TEST_CASE("world: an unheated body stands 60 s with no particle moving, and costs nothing") {
+    WorldFixture f;
+    f.create();
+    f.addMaterial();
+    f.addFloor();
+    f.addBox({-0.012f, 0, -0.012f}, {0.012f, 0.05f, 0.012f});
+    auto before = f.positions();
+    f.step(60 * 60);
+    auto after = f.positions();
+    REQUIRE(after.size() == before.size());
+    float worst = 0;
+    for (auto& [id, x] : before) {
+        thawVec3 y = after[id];
+        worst = std::max({worst, std::abs(x.x - y.x), std::abs(x.y - y.y), std::abs(x.z - y.z)});
+    }
+    CHECK(worst <= 1e-5f);
+    thawPlan p = f.plan();
+    for (int s = thawStage_neighbors; s < thawStage_count; ++s) {
+        CAPTURE(thawStageName(static_cast<thawStage>(s)));
+        CHECK_FALSE(p.enabled[s]);
+    }
+    CHECK(f.counters().moving == 0);
+}
+
+TEST_CASE("world: melting keeps mass exactly and closes the energy ledger") {
+    WorldFixture f;
+    stump(f);
+    const int count = f.counters().particles;
+    f.step(600);
+    CHECK(f.counters().particles == count);
+    CHECK(f.counters().meltedFraction > 0.05f);
+    CHECK(f.counters().moving > 20);
+    CHECK(f.ledger().massError <= 1e-12);
+    CHECK(f.ledger().energyError <= 1e-6);
+    CHECK(f.ledger().absorbed > 0);
+}
+
+TEST_CASE("world: nothing leaks through the floor and nothing flies away") {
+    WorldFixture f;
+    stump(f, 150);
+    for (int second = 0; second < 12; ++second) {
+        f.step(60);
+        thawParticleView v = f.particles();
+        float lowest = 1, highest = 0, farthest = 0;
+        for (int i = 0; i < v.count; ++i) {
+            lowest = std::min(lowest, v.positions[4 * i + 1]), highest = std::max(highest, v.positions[4 * i + 1]);
+            farthest = std::max(farthest, std::hypot(v.positions[4 * i], v.positions[4 * i + 2]));
+        }
+        CHECK(lowest >= 0.25f * f.def.particleSpacing);
+        CHECK(highest <= 0.042f);
+        CHECK(farthest <= 0.3f);
+    }
+    CHECK(f.counters().meltedFraction > 0.3f);
+    CHECK(f.counters().moving > f.counters().particles / 5);
+}
+
+TEST_CASE("world: same plan, same state hash with 1, 2 and 4 threads and with the host's task system") {
+    uint64_t expected[3] = {};
+    for (int workers : {1, 2, 4}) {
+        WorldFixture f;
+        f.def.tasks.workerCount = workers;
+        stump(f, 100);
+        for (int k = 0; k < 3; ++k) {
+            f.step(60);
+            uint64_t h = thawWorld_GetStateHash(f.world);
+            if (workers == 1) expected[k] = h;
+            CAPTURE(workers);
+            CHECK(h == expected[k]);
+        }
+        CHECK(f.counters().moving > 0);
+    }
+    WorldFixture f;
+    f.def.tasks.workerCount = 3;
+    f.def.tasks.enqueue = [](thawTask* task, void* context, void*) -> void* { return new std::thread(task, context); };
+    f.def.tasks.finish = [](void* handle, void*) {
+        auto* t = static_cast<std::thread*>(handle);
+        t->join();
+        delete t;
+    };
+    stump(f, 100);
+    f.step(60);
+    CHECK(thawWorld_GetStateHash(f.world) == expected[0]);
+}
+
+TEST_CASE("world: the governor's plan, fed back as work units, gives the same bits") {
+    WorldFixture a, b;
+    a.budget.mode = thawBudget_milliseconds, a.budget.milliseconds = 0.4f;
+    stump(a, 100), stump(b, 100);
+    bool varied = false;
+    thawWork first{};
+    for (int i = 0; i < 240; ++i) {
+        a.step();
+        thawPlan p = a.plan();
+        if (i == 0) first = p.work;
+        varied |= p.work.viscosityIterations != first.viscosityIterations || p.work.rayRefresh != first.rayRefresh;
+        b.budget.work = p.work;
+        b.step();
+        REQUIRE(thawWorld_GetStateHash(a.world) == thawWorld_GetStateHash(b.world));
+    }
+    CHECK(varied); // the budget was tight enough to make the plan change
+}
+
+TEST_CASE("world: the hash tells worlds apart") {
+    WorldFixture a, b;
+    stump(a), stump(b);
+    a.step(30), b.step(30);
+    REQUIRE(thawWorld_GetStateHash(a.world) == thawWorld_GetStateHash(b.world));
+    thawWorld_SetGravity(b.world, {0, -9.80f, 0});
+    CHECK(thawWorld_GetStateHash(a.world) != thawWorld_GetStateHash(b.world));
+}
+
+TEST_CASE("world: a piece that nothing holds falls as a lump, lands and is held again") {
+    WorldFixture f;
+    f.create();
+    f.addMaterial();
+    f.addFloor();
+    thawBodyId body = f.addBox({-0.008f, 0.03f, -0.008f}, {0.008f, 0.046f, 0.008f});
+    thawBodyState start, s;
+    thawBody_GetState(f.world, body, &start);
+    f.step(3); // it is found to hang on nothing
+    CHECK(f.counters().moving == f.counters().particles);
+    f.step(120);
+    thawBody_GetState(f.world, body, &s);
+    CHECK(s.center.y == doctest::Approx(0.008f).epsilon(0.12));
+    CHECK(s.lower.y >= 0.25f * f.def.particleSpacing);
+    // Still a cube: its extent changed by less than a spacing.
+    CHECK(s.upper.x - s.lower.x < start.upper.x - start.lower.x + f.def.particleSpacing);
+    CHECK(s.upper.y - s.lower.y > start.upper.y - start.lower.y - f.def.particleSpacing);
+    CHECK(f.counters().moving == 0);
+}
+
+TEST_CASE("world: liquid cools, sets and then stands still") {
+    WorldFixture f;
+    f.def.thermalTimeScale = 300;
+    f.def.convection = 100;
+    f.create();
+    f.addMaterial();
+    f.addFloor();
+    f.addBox({-0.008f, 0, -0.008f}, {0.008f, 0.012f, 0.008f}, 335); // liquid
+    f.step(10);
+    CHECK(f.counters().moving == f.counters().particles);
+    f.step(1500);
+    CHECK(f.counters().meltedFraction == 0);
+    CHECK(f.counters().moving == 0);
+    auto before = f.positions();
+    f.step(300);
+    CHECK(f.positions().at(1).y == before.at(1).y);
+    thawLedger l = f.ledger();
+    CHECK(l.energyError <= 1e-6);
+}
+
+TEST_CASE("world: destroying a body takes its mass and energy out of the ledger") {
+    WorldFixture f;
+    f.create();
+    f.addMaterial();
+    f.addFloor();
+    thawBodyId a = f.addBox({-0.02f, 0, -0.005f}, {-0.01f, 0.01f, 0.005f});
+    f.addBox({0.01f, 0, -0.005f}, {0.02f, 0.01f, 0.005f});
+    f.step(5);
+    const int count = f.counters().particles;
+    REQUIRE(thawDestroyBody(f.world, a) == thawResult_ok);
+    CHECK(f.counters().particles == count / 2);
+    f.step(5);
+    thawLedger l = f.ledger();
+    CHECK(l.massRemoved == doctest::Approx(l.massAdded / 2).epsilon(0.01));
+    CHECK(l.massError <= 1e-12);
+    CHECK(l.energyError <= 1e-9);
+}
+
+TEST_CASE("world: heat every n-th step loses no heat time") {
+    double absorbed[2];
+    int k = 0;
+    for (int interval : {1, 4}) {
+        WorldFixture f;
+        f.budget.work.heatInterval = interval;
+        f.def.convection = 0;
+        f.def.thermalTimeScale = 2;
+        stump(f, 2);
+        f.step(120);
+        absorbed[k++] = f.ledger().absorbed;
+    }
+    CHECK(absorbed[1] == doctest::Approx(absorbed[0]).epsilon(0.03));
+}
+
+TEST_CASE("world: an empty world steps and answers") {
+    WorldFixture f;
+    f.create();
+    f.step(10);
+    CHECK(f.counters().particles == 0);
+    thawSurfaceDef d;
+    thawInitSurfaceDef(&d);
+    thawSurfaceView v;
+    CHECK(thawWorld_ExtractSurface(f.world, &d, &v) == thawResult_ok);
+    CHECK(v.triangleCount == 0);
+    CHECK(f.plan().reason[thawStage_pressure] == thawReason_noParticles);
+}
