@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+
+// Melt surfaces and still meshes. The pass is one of COLOR_PASS, GEOMETRY_PASS, KEY_PASS, FLAME_PASS.
+
+layout(location = 0) in vec3 aPosition;
+layout(location = 1) in vec3 aNormal;
+layout(location = 2) in float aTemperature;
+layout(location = 3) in float aLiquid;
+layout(location = 4) in float aMaterial;
+
+uniform mat4 uModel;
+uniform vec4 uMaterialColor[MAX_MATERIALS]; // w: translucency
+uniform float uMaterialRoughness[MAX_MATERIALS];
+uniform int uFlameLayer;
+uniform float uClipFloor; // 1: drop what is under the floor
+
+out vec3 vPosition;
+out vec3 vNormal;
+out float vDepth;
+out vec4 vAlbedo; // w: translucency
+out vec3 vState;  // temperature, liquid fraction, roughness
+
+void main() {
+    vec4 world = uModel * vec4(aPosition, 1.0);
+    gl_ClipDistance[0] = 1.0;
+#if defined(KEY_PASS)
+    gl_Position = vec4((uKeyMatrix * world).xyz * 2.0 - 1.0, 1.0);
+#elif defined(FLAME_PASS)
+    vec3 d = normalize(world.xyz - uFlamePosition[uFlameLayer].xyz);
+    gl_ClipDistance[0] = dot(d, uFlameAxis[uFlameLayer]) + 0.3;
+    vec3 c = flameCoordinates(uFlameLayer, world.xyz);
+    gl_Position = vec4(c.xy, c.z * 2.0 - 1.0, 1.0);
+#else
+    vPosition = world.xyz;
+    vNormal = mat3(uModel) * aNormal;
+    vec4 inView = uView * world;
+    vDepth = -inView.z;
+    int material = clamp(int(aMaterial + 0.5), 0, MAX_MATERIALS - 1);
+    vAlbedo = uMaterialColor[material];
+    vState = vec3(aTemperature, aLiquid, uMaterialRoughness[material]);
+    gl_ClipDistance[0] = mix(1.0, world.y - uFloorHeight, uClipFloor);
+    gl_Position = uProjection * inView;
+#endif
+}
