@@ -18,9 +18,11 @@ struct Collider {
     bool alive = false;
     std::shared_ptr<const DistanceGrid> grid; // mesh: world space, transform already applied
     std::shared_ptr<const CleanMesh> mesh;    // mesh: for rays
-    // Distance from p to the surface in m, > 0 outside; normal is the unit outward direction (gradient) there.
+    // Distance from p to the surface in m, > 0 outside; normal is the unit outward direction (gradient) there. Sizes
+    // are in m: the transform's scale is not applied to them. Infinity and +y when p is not finite, or a mesh has no
+    // grid.
     float distance(Vec3 p, Vec3& normal) const;
-    // Bounds, infinite for a plane.
+    // Bounds, infinite for a plane, empty for a mesh without triangles.
     Box bounds() const;
 };
 

@@ -18,6 +18,7 @@ struct CleanMesh {
     std::vector<uint32_t> indices; // three per triangle, outward
     Box bounds;
     thawMeshReport report{};
+    bool watertight = false; // every edge is balanced: the winding number is whole everywhere
 };
 
 // Welds, drops degenerate triangles, orients outward. `to` maps the mesh into the world. On failure returns badMesh or
@@ -31,8 +32,9 @@ struct DistanceGrid {
     Vec3 origin;    // of node (0,0,0)
     float cell = 0; // m
     int nx = 0, ny = 0, nz = 0;
-    std::vector<float> values; // nx*ny*nz, x fastest; exact within the band, a lower bound of |d| outside of it
-    // Distance in m and unit gradient at p; outside the grid the distance to the grid's box is added.
+    std::vector<float> values; // nx*ny*nz, x fastest; exact at the nodes
+    // Distance in m and unit gradient at p. Outside the grid: the distance to the surface point estimated from where
+    // the grid's box is met. Infinity and +y when p is not finite or the grid is empty.
     float sample(Vec3 p, Vec3& gradient) const;
     float sample(Vec3 p) const;
 };
