@@ -3,6 +3,8 @@
 #pragma once
 
 #include "base/tasks.h"
+#include "neighbors/grid.h"
+#include "neighbors/passes.h"
 #include "particles/particles.h"
 
 namespace thaw {
@@ -21,7 +23,7 @@ public:
 
     // Sorts the rows: movers first, then by cell, then by the order they had (stable). Permutes every particle field.
     void sort(Particles& particles, Tasks& tasks);
-    // Builds the lists from the sorted rows. Grows its own memory when needed.
+    // Builds the lists from the sorted rows, at the positions of that sort. Grows its own memory when needed.
     void build(const Particles& particles, Tasks& tasks);
     // One pass over all pairs: fills gradient, volumeFraction, gradientSum, stiffnessSum (Wendland C2 at h = (h_i +
     // h_j) / 2, divided by latticeSum()). volume[i] and invDensity[i] (1 / rho for movers, 0 for fixed) come from the
@@ -31,7 +33,7 @@ public:
     int groupCount = 0, moverGroups = 0;
     Array<uint32_t> entries; // see above
     Array<float> gradient;   // per entry: V_j W'(r) / (r s0), <= 0; the gradient of the pair is this times (x_i - x_j)
-    Array<uint32_t> first;   // per group
+    Array<uint32_t> first;   // per group; ascending within a block of groups, with gaps between blocks
     Array<uint32_t> width;   // per group
     Array<float> volumeFraction; // per particle: sum of V_j W / s0, itself included; 1 in the interior of the lattice
     Array<Vec4> gradientSum;     // per particle: xyz sum of V_j grad W / s0; w sum of V_j |grad W / s0|^2 invDensity_j
@@ -45,13 +47,34 @@ public:
     template <class F> void forCandidates(Vec3 p, float radius, F&& f) const;
 
 private:
-    struct Grid {
-        Vec3 origin;
-        float inverseCell = 0;
-        int nx = 0, ny = 0, nz = 0;
-    } grid_;
-    Array<uint32_t> cellStart_[2]; // movers, fixed: per cell the first row; one more than cells
-    Array<uint32_t> cellOf_;       // per row
+    struct Bounds {
+        Vec4 lower, upper; // w: support
+    };
+    void layGrid(const Particles& particles, Tasks& tasks);
+
+    CellGrid grid_;
+    float minSupport_ = 0, maxSupport_ = 0;
+    Array<uint32_t> cellStart_;     // by 2 x cell: movers, then fixed; first row
+    Array<uint32_t> cellOf_, keys_; // per row, class included
+    Array<uint32_t> order_;         // per new row, the old one
+    Array<Bounds> bounds_;          // per block of rows
+    Array<float> soa_;              // x, y, z, h
+    Array<Vec4> packed_;            // xyz, w volume
+    Array<ListBlock> blocks_;
+    Array<int> redo_;
+    Array<ListScratch> scratch_; // per worker
 };
+
+template <class F> void Neighbors::forCandidates(Vec3 p, float radius, F&& f) const {
+    (void)radius; // the cells are as wide as the largest support
+    if (cellStart_.empty()) return;
+    const int x = grid_.coordinate(0, p.x), y = grid_.coordinate(1, p.y), z = grid_.coordinate(2, p.z);
+    for (int kind = 0; kind < 2; ++kind) {
+        CellGrid::Range ranges[CellGrid::kMaxRanges];
+        const int n = grid_.ranges(cellStart_.data() + kind * grid_.cellCount(), x, y, z, ranges);
+        for (int r = 0; r < n; ++r)
+            for (uint32_t j = ranges[r].begin; j < ranges[r].end; ++j) f(static_cast<int>(j));
+    }
+}
 
 } // namespace thaw

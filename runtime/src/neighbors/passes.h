@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/types.h"
+#include "neighbors/grid.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace thaw {
+
+// The vector loops of Neighbors, compiled per instruction set. Each works on a range of groups and may run next to
+// others.
+
+// What one worker needs while it makes lists: the candidates of one cell, and the eight rows of a group before they are
+// interleaved.
+struct ListScratch {
+    static constexpr int kCandidates = 4096; // of a cell that are copied; more are read where they are
+    static constexpr int kRow = 272;         // kMaxNeighbors and what whole vectors write past it
+    alignas(64) float x[kCandidates + 16], y[kCandidates + 16], z[kCandidates + 16], h[kCandidates + 16];
+    alignas(64) uint32_t entry[kCandidates + 16];
+    alignas(64) uint32_t row[8][kRow];
+};
+
+struct ListArgs {
+    CellGrid grid;
+    const uint32_t* cellStart; // 2 cellCount + 1: movers, then fixed
+    const uint32_t* cellOf;    // per row
+    const float *x, *y, *z, *h;
+    int count, moverCount;
+    float support; // of all, when they have one; else 0
+    uint32_t *entries, *first, *width;
+};
+
+struct ListBlock {
+    uint32_t offset = 0, capacity = 0; // entries, in and out of the array; kSlack of them are not for use
+    static constexpr uint32_t kSlack = 64;
+    uint32_t needed = 0;    // with the slack
+    uint32_t neighbors = 0; // sum over the rows
+    uint32_t most = 0;
+    bool clipped = false;
+    bool fits() const { return needed <= capacity; }
+};
+
+// Groups [begin, end) into their block; when it is too small, nothing of it is to be used but `needed`.
+void buildLists(const ListArgs& a, ListScratch& scratch, int begin, int end, ListBlock& block);
+
+struct WeighArgs {
+    const Vec4* position;
+    const Vec4* packed; // xyz, w volume
+    const float *volume, *invDensity;
+    float support;    // of all, when they have one; else 0
+    float minSupport; // > 0
+    float inverseLatticeSum;
+    const uint32_t *entries, *first, *width;
+    float *gradient, *volumeFraction;
+    Vec4* gradientSum;
+};
+
+void weighGroups(const WeighArgs& a, int begin, int end);
+
+} // namespace thaw

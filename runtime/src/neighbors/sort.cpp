@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "neighbors/neighbors.h"
+
+#include <cmath>
+
+namespace thaw {
+namespace {
+
+constexpr int kRowBlock = 2048;
+
+Vec4 lesser(const Vec4& a, const Vec4& b) {
+    return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z, a.w < b.w ? a.w : b.w};
+}
+Vec4 greater(const Vec4& a, const Vec4& b) {
+    return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z, a.w > b.w ? a.w : b.w};
+}
+
+// More cells than this are slower to clear and sum than the strangers in folded cells are to test.
+int cellLimit(int particles) { return std::max(1 << 14, 4 * particles); }
+
+} // namespace
+
+Neighbors::Neighbors(Allocator& a)
+    : entries(a), gradient(a), first(a), width(a), volumeFraction(a), gradientSum(a), cellStart_(a), cellOf_(a),
+      keys_(a), order_(a), bounds_(a), soa_(a), packed_(a), blocks_(a), redo_(a), scratch_(a) {}
+
+void Neighbors::layGrid(const Particles& particles, Tasks& tasks) {
+    const int n = particles.count;
+    bounds_.resizeRaw(static_cast<size_t>(Tasks::blockCount(n, kRowBlock)));
+    const Vec4* position = particles.position.data();
+    tasks.forBlocks(n, kRowBlock, [&](int begin, int end, int block, int) {
+        Vec4 lower = position[begin], upper = lower;
+        for (int i = begin + 1; i < end; ++i) lower = lesser(lower, position[i]), upper = greater(upper, position[i]);
+        bounds_[static_cast<size_t>(block)] = {lower, upper};
+    });
+    Vec4 lower = bounds_[0].lower, upper = bounds_[0].upper;
+    for (const Bounds& b : bounds_) lower = lesser(lower, b.lower), upper = greater(upper, b.upper);
+    minSupport_ = lower.w, maxSupport_ = upper.w;
+
+    // A little wider than the support, so that no rounding puts two neighbours two cells apart.
+    const double cell = static_cast<double>(maxSupport_) * 1.00001;
+    const double low[3] = {lower.x, lower.y, lower.z}, high[3] = {upper.x, upper.y, upper.z};
+    grid_.inverseCell = 1 / cell;
+    double wanted[3];
+    for (int k = 0; k < 3; ++k) {
+        grid_.origin[k] = low[k];
+        wanted[k] = std::floor((high[k] - low[k]) / cell * (1 + 1e-12)) + 2; // at least one to spare
+        grid_.folded[k] = false;
+    }
+    while (wanted[0] * wanted[1] * wanted[2] > cellLimit(n)) {
+        int k = wanted[0] >= wanted[1] && wanted[0] >= wanted[2] ? 0 : wanted[1] >= wanted[2] ? 1 : 2;
+        wanted[k] = std::ceil(wanted[k] / 2);
+        grid_.folded[k] = true;
+    }
+    for (int k = 0; k < 3; ++k) grid_.cells[k] = static_cast<int>(wanted[k]);
+}
+
+void Neighbors::sort(Particles& particles, Tasks& tasks) {
+    const int n = particles.count;
+    const size_t rows = static_cast<size_t>(n);
+    particles.moverCount = 0;
+    grid_ = {};
+    cellStart_.reserve(2 * static_cast<size_t>(cellLimit(particles.capacity)) + 2);
+    if (n == 0) {
+        minSupport_ = maxSupport_ = 0;
+        cellStart_.assign(3, 0);
+        cellOf_.clear();
+        particles.pad();
+        return;
+    }
+    layGrid(particles, tasks);
+
+    const size_t cells = static_cast<size_t>(grid_.cellCount());
+    keys_.resizeRaw(rows), cellOf_.resizeRaw(rows), order_.resizeRaw(rows);
+    const Vec4* position = particles.position.data();
+    const uint8_t* flags = particles.flags.data();
+    uint32_t* keys = keys_.data();
+    const bool folded = grid_.folded[0] || grid_.folded[1] || grid_.folded[2];
+    tasks.forBlocks(n, kRowBlock, [&](int begin, int end, int, int) {
+        const CellGrid g = grid_;
+        const uint32_t fixedOffset = static_cast<uint32_t>(cells);
+        for (int i = begin; i < end; ++i) {
+            const Vec4 p = position[i];
+            int x, y, z;
+            if (folded) {
+                x = g.coordinate(0, p.x), y = g.coordinate(1, p.y), z = g.coordinate(2, p.z);
+            } else { // nothing lies below the origin, so truncation is the floor
+                x = static_cast<int>((static_cast<double>(p.x) - g.origin[0]) * g.inverseCell);
+                y = static_cast<int>((static_cast<double>(p.y) - g.origin[1]) * g.inverseCell);
+                z = static_cast<int>((static_cast<double>(p.z) - g.origin[2]) * g.inverseCell);
+            }
+            keys[i] =
+                static_cast<uint32_t>((z * g.cells[1] + y) * g.cells[0] + x) + ((flags[i] & kFixed) ? fixedOffset : 0);
+        }
+    });
+
+    // Counting sort. start[k + 1] counts key k, then is where key k goes next, and at the end where key k + 1 begins.
+    cellStart_.assign(2 * cells + 2, 0);
+    uint32_t* start = cellStart_.data();
+    bool sorted = true;
+    uint32_t last = 0;
+    for (size_t i = 0; i < rows; ++i) {
+        sorted &= keys[i] >= last;
+        last = keys[i];
+        ++start[last + 1];
+    }
+    if (sorted) {
+        uint32_t sum = 0;
+        for (size_t k = 1; k < 2 * cells + 2; ++k) sum += start[k], start[k] = sum;
+        cellOf_.swap(keys_);
+    } else {
+        uint32_t sum = 0;
+        for (size_t k = 1; k < 2 * cells + 2; ++k) {
+            uint32_t c = start[k];
+            start[k] = sum;
+            sum += c;
+        }
+        uint32_t *order = order_.data(), *cellOf = cellOf_.data();
+        for (size_t i = 0; i < rows; ++i) {
+            uint32_t to = start[keys[i] + 1]++;
+            order[to] = static_cast<uint32_t>(i);
+            cellOf[to] = keys[i];
+        }
+        tasks.forBlocks(n, kRowBlock, [&](int begin, int end, int, int) {
+#define X(type, name)                                                                                                  \
+    {                                                                                                                  \
+        const type* from = particles.name.data();                                                                      \
+        type* to = particles.name##Back.data();                                                                        \
+        for (int i = begin; i < end; ++i) to[i] = from[order[i]];                                                      \
+    }
+            THAW_PARTICLE_FIELDS(X)
+#undef X
+        });
+#define X(type, name) particles.name.swap(particles.name##Back);
+        THAW_PARTICLE_FIELDS(X)
+#undef X
+    }
+    particles.moverCount = static_cast<int>(start[cells]);
+    particles.pad();
+}
+
+} // namespace thaw
