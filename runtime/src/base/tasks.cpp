@@ -29,6 +29,11 @@ inline void relax() {
 #endif
 }
 
+// Without the overflow of begin + blockSize.
+int blockEnd(const Tasks::Job& job, int begin) {
+    return job.count - begin <= job.blockSize ? job.count : begin + job.blockSize;
+}
+
 // Rounding, denormals and exception masks of the calling thread. Workers take over the caller's: a host that flushes
 // denormals on its own thread only would otherwise get bits that depend on who ran which block.
 struct FloatMode {
@@ -75,8 +80,8 @@ struct Tasks::Impl {
             while (share.next.load(std::memory_order_relaxed) < share.end) {
                 int block = share.next.fetch_add(1, std::memory_order_relaxed);
                 if (block >= share.end) break;
-                int begin = block * job.blockSize, end = std::min(job.count, begin + job.blockSize);
-                job.call(job.context, begin, end, block, worker);
+                int begin = block * job.blockSize;
+                job.call(job.context, begin, blockEnd(job, begin), block, worker);
             }
         }
     }
@@ -90,7 +95,7 @@ struct Tasks::Impl {
     }
 
     void threadMain(int worker) {
-        uint32_t last = gate.load() & kNumberMask;
+        uint32_t last = 0; // number of the last job seen; the first has 1
         for (;;) {
             uint32_t seen = waitForJob(last);
             if (quit.load()) return;
@@ -170,7 +175,7 @@ void Tasks::run(const Job& wanted) {
     if (p.workers == 1 || blocks == 1) {
         for (int b = 0; b < blocks; ++b) {
             int begin = b * job.blockSize;
-            job.call(job.context, begin, std::min(job.count, begin + job.blockSize), b, 0);
+            job.call(job.context, begin, blockEnd(job, begin), b, 0);
         }
         return;
     }
