@@ -53,6 +53,11 @@ void wallFraction(const Contact* c, int n, float h, float& fraction, Vec3& gradi
     fraction = 1 - open;
 }
 
+bool outside(const Box& b, Vec3 p, float margin) {
+    return p.x < b.lower.x - margin || p.x > b.upper.x + margin || p.y < b.lower.y - margin ||
+           p.y > b.upper.y + margin || p.z < b.lower.z - margin || p.z > b.upper.z + margin;
+}
+
 } // namespace
 
 Motion::Motion(Allocator& a)
@@ -92,7 +97,7 @@ void Motion::begin(const MotionFrame& f) {
             p.velocity[i].setXyz({});
             point_[i] = {x.x, x.y, x.z, 0};
             direction_[i] = {};
-            target_[i] = p.position[i];
+            target_[i] = {x.x, x.y, x.z, -p.position[i].w};
         }
     });
 
@@ -184,30 +189,43 @@ void Motion::holdAtWalls(size_t i, Vec4& velocity, float h, float dt) const {
     velocity.setXyz(v);
 }
 
-int Motion::subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spacing, int limit) {
+int Motion::subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spacing, int limit,
+                           const Collider* colliders, int colliderCount) {
     if (p.moverCount == 0 || limit <= 1) return 1;
     // Histograms over sub-steps wanted, so that single particles (one drop that lands, one spike of pressure) decide
     // nothing: what lands as a drip needs no sub-steps (measured, 9 % compression at worst).
     constexpr int kMost = 16, kApproachMost = 4;
     int depth[kMost + 1] = {}, approach[kApproachMost + 1] = {};
+    Box held;
+    for (int r = p.moverCount; r < p.count; ++r) held.grow(p.position[static_cast<size_t>(r)].xyz());
     float low = INFINITY, high = -INFINITY;
     const Vec3 down = normalizeOr(gravity, {});
     for (int r = 0; r < p.moverCount; ++r) {
         const size_t i = static_cast<size_t>(r);
-        const Vec4 x = p.position[i];
-        const float along = dot(x.xyz(), down);
+        const Vec3 x = p.position[i].xyz(), way = dt * p.velocity[i].xyz();
+        const float along = dot(x, down);
         low = std::min(low, along), high = std::max(high, along);
-        const float d = x.w / kSupport, density = p.velocity[i].w / (d * d * d);
+        const float d = p.position[i].w / kSupport, density = p.velocity[i].w / (d * d * d);
         const float g = p.pressure[i] * dt * dt / (density * d * d);
         int k = 1;
         while (k < kMost && g > kDepthPerStep * static_cast<float>(k * k)) ++k;
         ++depth[k];
-        if (!(p.flags[i] & kSurface)) {
-            const float moved = length(p.velocity[i].xyz()) * dt / d;
-            int a = 1;
-            while (a < kApproachMost && moved > kApproachPerStep * static_cast<float>(a)) ++a;
-            ++approach[a];
+
+        // What will have reached a wall by the end of the step, and how far it goes toward it: sliding along one asks
+        // for nothing.
+        if (!(dot(way, way) > kApproachPerStep * kApproachPerStep * d * d)) continue;
+        float toward = 0;
+        for (int c = 0; c < colliderCount; ++c) {
+            if (!colliders[c].alive) continue;
+            Vec3 normal;
+            const float distance = colliders[c].distance(x, normal), into = -dot(normal, way);
+            if (distance - into < d) toward = std::max(toward, into);
         }
+        const Vec3 to = x + way;
+        if (outside(held, x, d) && !outside(held, to, d)) toward = std::max(toward, length(way));
+        int a = 1;
+        while (a < kApproachMost && toward > kApproachPerStep * d * static_cast<float>(a)) ++a;
+        ++approach[a];
     }
     const float extent = (high - low + spacing) * length(gravity) * dt * dt / (spacing * spacing);
     int deepest = 1;

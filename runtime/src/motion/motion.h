@@ -49,7 +49,9 @@ public:
     const MotionStats& stats() const { return stats_; }
 
     // How many sub-steps depth (G = g H dt^2 / dx^2) and approach speed ask for in a step of dt, at most `limit`.
-    static int subStepsWanted(const Particles& particles, float dt, Vec3 gravity, float spacing, int limit);
+    // Without colliders, only what approaches fixed particles counts as approach.
+    static int subStepsWanted(const Particles& particles, float dt, Vec3 gravity, float spacing, int limit,
+                              const Collider* colliders = nullptr, int colliderCount = 0);
 
     static constexpr int kContacts = 4; // walls that a mover feels at once, the nearest
 

@@ -108,7 +108,7 @@ void Motion::move(const MotionFrame& f) {
 
     const PairLists lists(f.neighbors);
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int block, int) {
-        pairSeparation({lists, target_.data(), trait_.data(), image_.data()}, begin, end);
+        pairSeparation({lists, target_.data(), image_.data()}, begin, end);
         const int last = std::min(8 * end, p.moverCount);
         BlockSums sums;
         Box around;

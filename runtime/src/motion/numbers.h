@@ -24,7 +24,7 @@ inline constexpr float kAdhesionFrom = 0.5f, kAdhesionReach = 4, kAdhesionFade =
 inline constexpr float kFloorCosine = 0.7f;
 
 // Sub-steps: k = sqrt(G / kDepthPerStep), and so many spacings of travel in each.
-inline constexpr float kDepthPerStep = 15, kApproachPerStep = 1.5f;
+inline constexpr float kDepthPerStep = 15, kApproachPerStep = 1;
 
 // Share of the density error taken back in a step. Feedback adds the velocity error / dt, so it falls with dt.
 inline float densityFeedback(int subSteps) { return subSteps <= 2 ? 0.3f : subSteps == 3 ? 0.2f : 0.1f; }

@@ -26,6 +26,7 @@ struct ForcePass {
     const float* volume;     // m^3
     const float* invDensity; // 0 for fixed
     float dt;
+    bool cohesive; // some material coheres
     // Out, per row: dv by cohesion and warm pressure (pairs only), the diagonal of the viscous pair matrix; per entry:
     // the viscous coefficient.
     Vec4* change;
@@ -61,12 +62,11 @@ struct GradientPass {
 };
 void pairGradient(const GradientPass& p, int begin, int end);
 
-// out_i = push apart of pairs closer than share * their mean spacing; fixed partners (trait.x < 0) leave it all to i.
+// out_i = push apart of pairs closer than a share of their mean spacing
 struct SeparationPass {
     PairLists lists;
-    const Vec4* position; // xyz, w support
-    const Vec4* trait;
-    Vec4* out;
+    const Vec4* position; // xyz; w support, negative for fixed rows, which leave all of it to their partner
+    Vec4* out;            // w = 0
 };
 void pairSeparation(const SeparationPass& p, int begin, int end);
 
