@@ -20,8 +20,7 @@ int edgeBetween(const CubeCases& cases, int a, int b) {
 
 // Twice the edge's middle, so that all is whole numbers.
 void middle(const CubeCases& cases, int edge, int out[3]) {
-    for (int axis = 0; axis < 3; ++axis)
-        out[axis] = axis == edge / 4 ? 1 : 2 * (cases.edgeStart[edge] >> axis & 1);
+    for (int axis = 0; axis < 3; ++axis) out[axis] = axis == edge / 4 ? 1 : 2 * (cases.edgeStart[edge] >> axis & 1);
 }
 
 bool onOneFace(const CubeCases& cases, int e, int f) {
@@ -41,8 +40,8 @@ int distanceSquared(const CubeCases& cases, int e, int f) {
 
 constexpr int kForbidden = 1 << 20;
 
-// Cuts the loop's corners first..last into triangles so that the inner edges are short and none lies in a face of the cube:
-// the cube on the other side might draw the same edge, and it would have four triangles. Returns the cost.
+// Cuts the loop's corners first..last into triangles so that the inner edges are short and none lies in a face of the
+// cube: the cube on the other side might draw the same edge, and it would have four triangles. Returns the cost.
 int cut(const CubeCases& cases, const int* loop, int first, int last, int (*out)[3], int& count) {
     if (last - first < 2) return 0;
     int best = kForbidden, bestApex = -1;
@@ -73,9 +72,9 @@ CubeCases::CubeCases() : triangleCount{}, triangles{} {
             if (!(c >> axis & 1)) edgeStart[4 * axis + k++] = uint8_t(c);
 
     for (int inside = 0; inside < 256; ++inside) {
-        // On each face, each edge where its outline leaves the inside is joined to the next edge where it comes back. Both
-        // cubes of a face join the same edges, so the mesh is closed; of two ways where the corners alternate it is the one
-        // that joins the inside, which keeps thin films whole.
+        // On each face, each edge where its outline leaves the inside is joined to the next edge where it comes back.
+        // Both cubes of a face join the same edges, so the mesh is closed; of two ways where the corners alternate it
+        // is the one that joins the inside, which keeps thin films whole.
         int next[12];
         for (int& n : next) n = -1;
         for (const auto& face : kFaces) {

@@ -8,36 +8,37 @@
 namespace thaw {
 namespace {
 
-constexpr int kSide = SurfaceField::kSide;
 constexpr float kSupport = 2.2f; // h / spacing of the input
 
-// Kernel radius in spacings. On a lattice this one puts the face at 0.498..0.506 spacings above the centres, wherever on the
-// face one looks; 1.6 gives 0.488..0.545 (the lattice shows), 2.0 gives 0.488..0.505 and swallows more detail.
+// Kernel radius in spacings. On a lattice this one puts the face at 0.498..0.506 spacings above the centres, wherever
+// on the face one looks; 1.6 gives 0.488..0.545 (the lattice shows), 2.0 gives 0.488..0.505 and swallows more detail.
 constexpr float kReach = 1.8f;
 // Least kernel radius in cells: below about 1.2 a node can miss every particle of a full lattice.
 constexpr float kReachCells = 1.3f;
 
-// Fill at a particle (its own share included) from which it is no longer lifted. On a lattice: bulk 0.98, face 0.83, edge
-// 0.70, one-particle sheet 0.68, corner 0.58, thread 0.45, pair 0.36, alone 0.27. The lift that gives a thing its true volume
-// is 1.01 for the sheet, 1.62 for the thread and 2.72 for one alone, which is kFullCompany / fill.
-constexpr float kFullCompany = 0.72f;
-extern "C" { float gLift = 0.5f, gLift0 = 0; }
+// Fill at a particle (its own share included) from which it is not lifted. On a lattice: bulk 0.98, face 0.83, edge
+// 0.70, one-particle sheet 0.68, corner 0.58, thread 0.45, pair 0.36, alone 0.27.
+constexpr float kFullCompany = 0.83f;
+// Most that is made up for: a particle alone. On cells so coarse that the kernel is widened there would be no end to
+// it.
+constexpr float kMaxMissing = 3.1f;
 
-constexpr int kMaxBlocks = 1 << 17;   // 1 GiB of values; the cell grows beyond
-constexpr double kCoarsen = 1.26;     // halves the volume of blocks
-constexpr int kAxisBits = 21;         // of a key
-constexpr int kMaxBins = 8;           // along an axis, for the candidates of a block
-constexpr int kPad = 8;               // lanes that may be read past the candidates
+constexpr int kMaxBlocks = 1 << 17; // 1 GiB of values; the cell grows beyond
+constexpr double kCoarsen = 1.26;   // halves the volume of blocks
+constexpr int kAxisBits = 21;       // of a key
+constexpr int kMaxBins = 8;         // along an axis, for the candidates of a block
+constexpr int kPad = 8;             // lanes that may be read past the candidates
 constexpr uint64_t kNoKey = ~uint64_t(0);
+constexpr float kPi = 3.14159265f;
 
 int64_t floorToInt(double v) { return int64_t(std::floor(v)); }
 
-// How much a particle counts for what it misses. Marching cubes cut the corners off what is a few cells thick, so more on
-// coarser cells.
+// How much a particle counts for what it misses. The second factor is fitted to the volume of the mesh, since marching
+// cubes cut the corners off what is a few cells thick. Volumes, mean over positions and directions, at cells of 0.25 /
+// 0.5 / 0.75 / 1 spacing (tests/unit/surface_volume.cpp prints them): VOLUMES
 float lift(float company, float cellPerRadius) {
-    float missing = std::max(kFullCompany / company, 1.0f);
-    float coarse = std::max(0.0f, gLift * (cellPerRadius - gLift0));
-    return missing * (1 + coarse * (missing - 1));
+    float missing = std::clamp(kFullCompany / company, 1.0f, kMaxMissing);
+    return missing * (1 + (0.9f * cellPerRadius * cellPerRadius - 0.08f) * (missing - 1));
 }
 
 uint64_t hashKey(uint64_t key) {
@@ -59,7 +60,7 @@ struct SurfaceField::Candidates {
 };
 
 float SurfaceField::mobility(float company) {
-    constexpr float kNone = 0.4f, kAll = 0.65f;
+    constexpr float kNone = .5f, kAll = 0.6f;
     return std::clamp((company - kNone) / (kAll - kNone), 0.0f, 1.0f);
 }
 
@@ -92,7 +93,8 @@ void SurfaceField::build(const SurfaceInput& input, float wantedCell, Tasks& tas
         for (int b = begin; b < end; ++b) countCompany(b, input, worker);
     });
     tasks.forBlocks(input.count, 1024, [&](int begin, int end, int, int) {
-        for (int i = begin; i < end; ++i) reach_[i].amplitude *= lift(reach_[i].company, float(cell_) / reach_[i].radius);
+        for (int i = begin; i < end; ++i)
+            reach_[i].amplitude *= lift(reach_[i].company, float(cell_) / reach_[i].radius);
     });
     tasks.forBlocks(count, 4, [&](int begin, int end, int, int) {
         for (int b = begin; b < end; ++b) splat(b, input);
@@ -126,7 +128,8 @@ bool SurfaceField::findBlocks(const SurfaceInput& input) {
             lower[a] = floorToInt((at[a] - radius) * perBlock);
             upper[a] = floorToInt((at[a] + radius) * perBlock);
         }
-        // Along one axis: squared distance to a block's box, which holds its cells and so the first nodes of the next block.
+        // Along one axis: squared distance to a block's box, which holds its cells and so the first nodes of the next
+        // block.
         auto gap = [&](int a, int64_t b) {
             double d = std::max({double(b) * side - at[a], at[a] - double(b + 1) * side, 0.0});
             return d * d;
@@ -230,11 +233,12 @@ void SurfaceField::gather(const Block& block, const SurfaceInput& input, Candida
 void SurfaceField::countCompany(int b, const SurfaceInput& input, int worker) {
     const Block& block = blocks_[b];
     float* memory = scratch_.data() + size_t(worker) * 2 * Candidates::kArrays * scratchStride_;
-    Candidates all(memory, scratchStride_), sorted(memory + size_t(Candidates::kArrays) * scratchStride_, scratchStride_);
+    Candidates all(memory, scratchStride_),
+        sorted(memory + size_t(Candidates::kArrays) * scratchStride_, scratchStride_);
     gather(block, input, all);
 
-    // Candidates by bins no narrower than any kernel: all that reaches a particle is in the 27 bins around it, and three
-    // bins along x are one run.
+    // Candidates by bins no narrower than any kernel: all that reaches a particle is in the 27 bins around it, and
+    // three bins along x are one run.
     float span = kSide + 2 * all.maxRadius;
     int bins = std::clamp(int(span / all.maxRadius), 1, kMaxBins);
     float perBin = float(bins) / span;
@@ -277,7 +281,8 @@ void SurfaceField::countCompany(int b, const SurfaceInput& input, int worker) {
             int rowY = y + kNearFirst[row] % 3 - 1, rowZ = z + kNearFirst[row] / 3 - 1;
             if (rowY < 0 || rowY >= bins || rowZ < 0 || rowZ >= bins) continue;
             const int* start = starts + (rowZ * bins + rowY) * bins;
-            fill += sumOver(start[std::max(x - 1, 0)], start[std::min(x + 1, bins - 1) + 1], all.x[k], all.y[k], all.z[k]);
+            fill +=
+                sumOver(start[std::max(x - 1, 0)], start[std::min(x + 1, bins - 1) + 1], all.x[k], all.y[k], all.z[k]);
         }
         reach_[i].company = std::min(fill, kFullCompany);
     }
@@ -293,7 +298,8 @@ void SurfaceField::splat(int b, const SurfaceInput& input) {
         int i = members_[k];
         const Vec4& p = input.positions[i];
         float radius = float(reach_[i].radius * perCell), squared = radius * radius, inverse = 1 / squared;
-        float x = float(p.x * perCell - first[0]), y = float(p.y * perCell - first[1]), z = float(p.z * perCell - first[2]);
+        float x = float(p.x * perCell - first[0]), y = float(p.y * perCell - first[1]),
+              z = float(p.z * perCell - first[2]);
         float amplitude = reach_[i].amplitude, temperature = input.temperatures[i], liquid = input.liquidFractions[i],
               company = reach_[i].company;
         float alongX[kSide];

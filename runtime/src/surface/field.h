@@ -11,23 +11,23 @@ namespace thaw {
 // What the mesher reads. Several spacings may stand side by side.
 struct SurfaceInput {
     int count = 0;
-    const Vec4* positions = nullptr;       // xyz, w: support radius h = 2.2 * spacing of that particle
-    const float* temperatures = nullptr;   // K
+    const Vec4* positions = nullptr;     // xyz, w: support radius h = 2.2 * spacing of that particle
+    const float* temperatures = nullptr; // K
     const float* liquidFractions = nullptr;
     const uint8_t* materials = nullptr;
-    const uint8_t* flags = nullptr;        // thawParticleFlags
-    float spacing = 0;                     // m, of level 0
+    const uint8_t* flags = nullptr; // thawParticleFlags
+    float spacing = 0;              // m, of level 0
 };
 
-// How much of the space around a node is wax, and the wax's properties there, on 8^3 blocks of nodes wherever a particle
-// reaches. The grid stands still in the world: node (i, j, k) is at cell * (i, j, k).
+// How much of the space around a node is wax, and the wax's properties there, on 8^3 blocks of nodes wherever a
+// particle reaches. The grid stands still in the world: node (i, j, k) is at cell * (i, j, k).
 //
 //     fill(x) = sum_i a_i V_i W(|x - x_i|),   W = 315 / (64 pi R^3) (1 - r^2/R^2)^3
 //
-// The sum counts volume, so it is 1 inside and exactly 1/2 on a flat face half a spacing above the outermost centres, for
-// any mixture of spacings and whatever the kernel; a distance to the mean particle (Zhu & Bridson 2005) needs another radius for
-// a face than for a drop, and bulges in notches. What volume counting loses are drops, threads and sheets, thinner than the
-// kernel: a_i >= 1 lifts particles in proportion to the neighbours they miss.
+// The sum counts volume, so it is 1 inside and exactly 1/2 on a flat face half a spacing above the outermost centres,
+// for any mixture of spacings and whatever the kernel; a distance to the mean particle (Zhu & Bridson 2005) needs
+// another radius for a face than for a drop, and bulges in notches. What volume counting loses are drops, threads and
+// sheets, thinner than the kernel: a_i >= 1 lifts particles in proportion to the neighbours they miss.
 class SurfaceField {
 public:
     static constexpr int kSide = 8, kNodes = kSide * kSide * kSide;
@@ -35,33 +35,36 @@ public:
     enum Channel { kFill, kTemperature, kLiquid, kCompany, kChannels }; // all but kFill are sums weighted by fill
 
     struct Block {
-        int32_t x, y, z;           // first node / 8
-        int32_t begin, end;        // range of members
-        int32_t upper[8];          // block at (+1 if bit 0, +1 if bit 1, +1 if bit 2), -1 where nothing reaches; [0] is itself
+        int32_t x, y, z;    // first node / 8
+        int32_t begin, end; // range of members
+        int32_t upper[8];   // block at (+1 if bit 0, +1 if bit 1, +1 if bit 2), -1 where nothing reaches; [0] is itself
     };
 
-    // Share of smoothing for a vertex with this mean company: none for drops and threads, which would shrink (the idea of
-    // Loeschner et al. 2023).
+    // Share of smoothing for a vertex with this mean company: none for drops and threads, which would shrink (the idea
+    // of Loeschner et al. 2023).
     static float mobility(float company);
 
     explicit SurfaceField(Allocator& allocator);
 
-    // wantedCell in m. A cell finer than the float grid of the positions, or one that needs too many blocks, is made coarser.
+    // wantedCell in m. A cell finer than the float grid of the positions, or one that needs too many blocks, is made
+    // coarser.
     void build(const SurfaceInput& input, float wantedCell, Tasks& tasks);
 
     double cell() const { return cell_; }
     int blockCount() const { return int(blocks_.size()); }
     const Block& block(int b) const { return blocks_[b]; }
-    const int32_t* members(const Block& b) const { return members_.data() + b.begin; } // particles that reach it, ascending
+    const int32_t* members(const Block& b) const {
+        return members_.data() + b.begin;
+    } // particles that reach it, ascending
     const float* values(int block, Channel channel) const {
         return values_.data() + (size_t(block) * kChannels + channel) * kNodes;
     }
 
 private:
     struct Reach {
-        float radius; // of the kernel, m
+        float radius;    // of the kernel, m
         float amplitude; // V W(0), then a V W(0)
-        float company; // fill at the particle before lifting, up to kFullCompany
+        float company;   // fill at the particle before lifting, up to kFullCompany
     };
     struct Candidates;
 

@@ -5,9 +5,10 @@
 namespace thaw {
 namespace {
 
-// Taubin 1995: a step inward and a longer one outward damp what is as fine as the mesh and keep what is coarse. The pair
-// leaves wave number kPass = 1/kIn + 1/kOut = 0.1 alone, so volume stays whatever the number of passes.
-constexpr float kIn = 0.5f, kOut = -0.5263f;
+// Taubin 1995: a step inward and a longer one outward damp what is as fine as the mesh and keep what is coarse. The
+// pair leaves wave number 1/kIn + 1/kOut = 0.05 alone, so volume stays whatever the number of passes. 0.1 leaves
+// blotches of four spacings on disordered particles.
+constexpr float kIn = 0.5f, kOut = -0.5128f;
 constexpr int kVertexBlock = 1024;
 
 } // namespace
@@ -34,7 +35,12 @@ void MeshSmoother::sweep(const Array<Vec3>& from, Array<Vec3>& to, const Array<f
             Vec3 sum;
             uint32_t first = begins_[v], last = begins_[v + 1];
             for (uint32_t k = first; k < last; ++k) sum += from[corners_[k].next] - from[v];
-            to[v] = from[v] + step * mobility[v] / float(last - first) * sum;
+            Vec3 move = step / float(last - first) * sum;
+            if (mobility[v] < 1) {
+                Vec3 normal = normalAt(from, v);
+                move -= (1 - mobility[v]) * dot(move, normal) * normal;
+            }
+            to[v] = from[v] + move;
         }
     });
 }
@@ -47,16 +53,28 @@ void MeshSmoother::smooth(Array<Vec3>& positions, const Array<float>& mobility, 
     }
 }
 
-void MeshSmoother::normals(const Array<Vec3>& positions, Array<Vec3>& out, Tasks& tasks) const {
-    out.resizeRaw(positions.size());
+Vec3 MeshSmoother::normalAt(const Array<Vec3>& positions, size_t v) const {
+    Vec3 sum;
+    for (uint32_t k = begins_[v]; k < begins_[v + 1]; ++k)
+        sum += cross(positions[corners_[k].next] - positions[v], positions[corners_[k].previous] - positions[v]);
+    return normalizeOr(sum, {0, 1, 0});
+}
+
+void MeshSmoother::normals(const Array<Vec3>& positions, Array<Vec3>& out, int passes, Tasks& tasks) {
+    out.resizeRaw(positions.size()), other_.resizeRaw(positions.size());
     tasks.forBlocks(int(positions.size()), kVertexBlock, [&](int begin, int end, int, int) {
-        for (int v = begin; v < end; ++v) {
-            Vec3 sum;
-            for (uint32_t k = begins_[v]; k < begins_[v + 1]; ++k)
-                sum += cross(positions[corners_[k].next] - positions[v], positions[corners_[k].previous] - positions[v]);
-            out[v] = normalizeOr(sum, {0, 1, 0});
-        }
+        for (int v = begin; v < end; ++v) out[v] = normalAt(positions, v);
     });
+    for (int pass = 0; pass < passes; ++pass) {
+        tasks.forBlocks(int(positions.size()), kVertexBlock, [&](int begin, int end, int, int) {
+            for (int v = begin; v < end; ++v) {
+                Vec3 sum = out[v];
+                for (uint32_t k = begins_[v]; k < begins_[v + 1]; ++k) sum += out[corners_[k].next];
+                other_[v] = normalizeOr(sum, out[v]);
+            }
+        });
+        out.swap(other_);
+    }
 }
 
 } // namespace thaw

@@ -15,13 +15,15 @@ public:
 
     // Reads who is next to whom. The mesh must be closed: each vertex then sees each neighbour in exactly one corner.
     void connect(size_t vertexCount, const Array<uint32_t>& indices);
-    // mobility per vertex, 0..1: 0 stays where it is.
+    // mobility per vertex, 0..1: share of the motion along the normal; 0 only evens out the triangles.
     void smooth(Array<Vec3>& positions, const Array<float>& mobility, int passes, Tasks& tasks);
-    // Unit, outward.
-    void normals(const Array<Vec3>& positions, Array<Vec3>& out, Tasks& tasks) const;
+    // Unit, outward; averaged with their neighbours' passes times.
+    void normals(const Array<Vec3>& positions, Array<Vec3>& out, int passes, Tasks& tasks);
 
 private:
     void sweep(const Array<Vec3>& from, Array<Vec3>& to, const Array<float>& mobility, float step, Tasks& tasks) const;
+
+    Vec3 normalAt(const Array<Vec3>& positions, size_t v) const;
 
     struct Corner {
         uint32_t next, previous; // the other two vertices of a triangle, in its order

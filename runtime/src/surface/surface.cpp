@@ -10,11 +10,15 @@ namespace thaw {
 namespace {
 
 constexpr int kSide = SurfaceField::kSide, kNodes = SurfaceField::kNodes;
-constexpr int kWide = kSide + 1, kWideNodes = kWide * kWide * kWide; // a block's cells have their last corners next door
+constexpr int kWide = kSide + 1,
+              kWideNodes = kWide * kWide * kWide; // a block's cells have their last corners next door
+
+// Shading shows bumps that the outline does not: two passes hide them on disordered particles, three flatten drips.
+constexpr int kNormalPasses = 2;
 
 int nodeAt(int x, int y, int z) { return (z * kSide + y) * kSide + x; }
 int wideAt(int x, int y, int z) { return (z * kWide + y) * kWide + x; }
-constexpr int kWideStep[3] = {1, kWide, kWide * kWide};
+constexpr int kWideStep[3] = {1, kWide, kWide* kWide};
 
 // One channel on the nodes of all the block's cells.
 void readWide(const SurfaceField& field, int block, SurfaceField::Channel channel, float* out) {
@@ -35,7 +39,8 @@ bool inside(float fill) { return fill >= SurfaceField::kIso; }
 int cubeCase(const float* fill, int node) {
     int bits = 0;
     for (int c = 0; c < 8; ++c)
-        bits |= inside(fill[node + (c & 1) * kWideStep[0] + (c >> 1 & 1) * kWideStep[1] + (c >> 2) * kWideStep[2]]) << c;
+        bits |= inside(fill[node + (c & 1) * kWideStep[0] + (c >> 1 & 1) * kWideStep[1] + (c >> 2) * kWideStep[2]])
+                << c;
     return bits;
 }
 
@@ -65,9 +70,25 @@ Surface::Surface(Allocator& allocator)
       materials(allocator), indices(allocator), field_(allocator), smoother_(allocator), meshes_(allocator),
       edgeVertices_(allocator), mobility_(allocator) {}
 
-void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, Tasks& tasks) {
-    positions.clear(), normals.clear(), temperatures.clear(), liquidFractions.clear(), materials.clear(), indices.clear();
+void Surface::clear() {
+    positions.clear(), normals.clear(), temperatures.clear(), liquidFractions.clear(), materials.clear(),
+        indices.clear();
+}
 
+void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, Tasks& tasks) {
+    try {
+        makeMesh(input, cellSize, tasks);
+        smoother_.connect(positions.size(), indices);
+        smoother_.smooth(positions, mobility_, smoothing, tasks);
+        smoother_.normals(positions, normals, kNormalPasses, tasks);
+    } catch (...) {
+        clear();
+        throw;
+    }
+}
+
+void Surface::makeMesh(const SurfaceInput& input, float cellSize, Tasks& tasks) {
+    clear();
     field_.build(input, cellSize * input.spacing, tasks);
     int blocks = field_.blockCount();
     meshes_.resizeRaw(blocks);
@@ -81,7 +102,6 @@ void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, 
         m.vertexBegin = vertexSum, m.indexBegin = indexSum;
         vertexSum += m.vertexCount, indexSum += m.indexCount;
     }
-    normals.resizeRaw(vertexSum);
     temperatures.resizeRaw(vertexSum);
     liquidFractions.resizeRaw(vertexSum);
     materials.resizeRaw(vertexSum);
@@ -92,10 +112,6 @@ void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, 
         for (int b = begin; b < end; ++b)
             if (meshes_[b].vertexCount + meshes_[b].indexCount) emit(b, input);
     });
-
-    smoother_.connect(positions.size(), indices);
-    smoother_.smooth(positions, mobility_, smoothing, tasks);
-    smoother_.normals(positions, normals, tasks);
 }
 
 void Surface::count(int block) {
@@ -141,7 +157,9 @@ void Surface::emit(int block, const SurfaceInput& input) {
         int a = wideAt(x, y, z), b = a + kWideStep[axis];
         // Clear of the nodes, so that no triangle is without area.
         float t = std::clamp((SurfaceField::kIso - fill[a]) / (fill[b] - fill[a]), 0.02f, 0.98f);
-        auto mean = [&](const float* sums) { return (sums[a] + t * (sums[b] - sums[a])) / (fill[a] + t * (fill[b] - fill[a])); };
+        auto mean = [&](const float* sums) {
+            return (sums[a] + t * (sums[b] - sums[a])) / (fill[a] + t * (fill[b] - fill[a]));
+        };
         double at[3] = {double(place.x) * kSide + x, double(place.y) * kSide + y, double(place.z) * kSide + z};
         at[axis] += t;
         double cell = field_.cell();

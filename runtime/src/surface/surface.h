@@ -32,6 +32,8 @@ private:
         uint32_t indexBegin, indexCount;
     };
 
+    void clear();
+    void makeMesh(const SurfaceInput& input, float cellSize, Tasks& tasks);
     void count(int block);
     void emit(int block, const SurfaceInput& input);
 

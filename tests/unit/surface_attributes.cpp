@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "surface_fixture.h"
+
+#include <doctest/doctest.h>
+
+using namespace thaw;
+
+TEST_CASE("surface: temperature, liquid fraction and material follow the particles") {
+    Mesher mesher;
+    Wax wax;
+    for (int z = -6; z < 6; ++z)
+        for (int y = -6; y < 6; ++y)
+            for (int x = -10; x < 10; ++x) {
+                Vec3 p = wax.spacing * Vec3{float(x) + 0.5f, float(y) + 0.5f, float(z) + 0.5f};
+                bool hot = x >= 0;
+                wax.add(p, wax.spacing, hot ? 350.0f : 290.0f, hot ? 0.9f : 0.1f, hot ? 7 : 2);
+            }
+    for (float cell : {0.5f, 0.75f, 2.0f}) {
+        Surface& s = mesher(wax, cell);
+        REQUIRE(s.positions.size() > 100);
+        CHECK(s.temperatures.size() == s.positions.size());
+        CHECK(s.liquidFractions.size() == s.positions.size());
+        CHECK(s.materials.size() == s.positions.size());
+        float widest = 3 + 2 * cell; // spacings that the kernel and the cell blur
+        int left = 0, right = 0, between = 0;
+        for (size_t v = 0; v < s.positions.size(); ++v) {
+            float x = s.positions[v].x / wax.spacing, t = s.temperatures[v], l = s.liquidFractions[v];
+            CHECK(t > 290 - 0.01f);
+            CHECK(t < 350 + 0.01f);
+            CHECK(l > 0.1f - 1e-4f);
+            CHECK(l < 0.9f + 1e-4f);
+            if (x < -widest) {
+                ++left;
+                CHECK(t < 290.01f);
+                CHECK(l < 0.1001f);
+            } else if (x > widest) {
+                ++right;
+                CHECK(t > 349.99f);
+                CHECK(l > 0.8999f);
+            } else if (std::fabs(x) < 0.3f) {
+                ++between;
+                CHECK(t > 300);
+                CHECK(t < 340);
+            }
+            if (std::fabs(x) > 0.3f * (1 + cell))
+                CHECK(s.materials[v] == (x > 0 ? 7 : 2)); // smoothing moves vertices a little
+        }
+        CHECK(left > 20);
+        CHECK(right > 20);
+        if (cell < 1) CHECK(between > 10);
+    }
+}
+
+TEST_CASE("surface: one hot particle colours its own drop only") {
+    Mesher mesher;
+    Wax wax;
+    wax.add({0, 0, 0}, wax.spacing, 280, 0.25f, 1);
+    wax.add({0.02f, 0, 0}, wax.spacing, 400, 1, 3);
+    Surface& s = mesher(wax);
+    REQUIRE(factsOf(s).components == 2);
+    for (size_t v = 0; v < s.positions.size(); ++v) {
+        bool hot = s.positions[v].x > 0.01f;
+        CHECK(std::fabs(s.temperatures[v] - (hot ? 400 : 280)) < 1e-3f);
+        CHECK(std::fabs(s.liquidFractions[v] - (hot ? 1.0f : 0.25f)) < 1e-5f);
+        CHECK(s.liquidFractions[v] <= 1);
+        CHECK(s.materials[v] == (hot ? 3 : 1));
+    }
+}
