@@ -23,11 +23,12 @@ struct Material {
     }
     Material() = default;
 
-    float temperature(double H) const {
-        if (H < 0) return static_cast<float>(def.solidus + H / def.specificHeatSolid);
-        if (H >= latent) return static_cast<float>(def.liquidus + (H - latent) / def.specificHeatLiquid);
-        return static_cast<float>(def.solidus + (static_cast<double>(def.liquidus) - def.solidus) * (H / latent));
+    double kelvin(double H) const {
+        if (H < 0) return def.solidus + H / def.specificHeatSolid;
+        if (H >= latent) return def.liquidus + (H - latent) / def.specificHeatLiquid;
+        return def.solidus + (static_cast<double>(def.liquidus) - def.solidus) * (H / latent);
     }
+    float temperature(double H) const { return static_cast<float>(kelvin(H)); }
     float liquidFraction(double H) const {
         if (H <= 0) return 0;
         return H >= latent ? 1.0f : static_cast<float>(H / latent);
