@@ -63,7 +63,7 @@ bool outside(const Box& b, Vec3 p, float margin) {
 Motion::Motion(Allocator& a)
     : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), wallGradient_(a), trait_(a), point_(a),
       coefficient_(a), wallDrag_(a), diagonal_(a), before_(a), residual_(a), direction_(a), image_(a), target_(a),
-      scalar_(a), sums_(a) {}
+      sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
@@ -75,7 +75,6 @@ void Motion::begin(const MotionFrame& f) {
     contact_.resizeRaw(movers * kContacts), contactAdhesive_.resizeRaw(movers * kContacts);
     contactCount_.resizeRaw(movers), wallGradient_.resizeRaw(movers), wallDrag_.resizeRaw(2 * movers);
     diagonal_.resizeRaw(movers), before_.resizeRaw(movers), residual_.resizeRaw(movers), image_.resizeRaw(movers);
-    scalar_.resizeRaw(movers);
     trait_.resizeRaw(rows), point_.resizeRaw(rows), direction_.resizeRaw(rows), target_.resizeRaw(rows);
     coefficient_.resizeRaw(f.neighbors.entries.size());
     sums_.assign(static_cast<size_t>(Tasks::blockCount(f.neighbors.moverGroups, kBlock)), {});
@@ -112,9 +111,8 @@ void Motion::begin(const MotionFrame& f) {
             around.grow(x.xyz());
             reach = std::max(reach, std::max(1.0f, kAdhesionReach / kSupport) * x.w);
         }
-        around.lower -= Vec3{reach, reach, reach}, around.upper += Vec3{reach, reach, reach};
         WallFinder walls;
-        walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around);
+        walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, reach);
 
         BlockSums sums;
         // Neighbours in memory mostly share material and liquid fraction: the exponential is kept.
@@ -162,6 +160,11 @@ void Motion::begin(const MotionFrame& f) {
             trait_[i] = {std::max(wanted, floor) / shear + fold * pressure,
                          f.materials[material].def.cohesion * (0.1f * kGravity), p.velocity[i].w, pressure};
             point_[i] = {x.x, x.y, x.z, 0};
+        }
+        // Rows of the last group that do not move have no part in anything.
+        for (int r = last; r < 8 * end; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            contactCount_[i] = 0, wallGradient_[i] = {};
         }
         sums_[static_cast<size_t>(block)] = sums;
     });

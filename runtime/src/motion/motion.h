@@ -79,7 +79,6 @@ private:
     Array<Vec4> diagonal_;     // per mover: 1 / diagonal of the viscous matrix, 1/kg
     Array<Vec4> before_, residual_, direction_, image_;
     Array<Vec4> target_; // per row: position at the end of the sub-step before particles are moved apart
-    Array<float> scalar_;
     Array<BlockSums> sums_;
 };
 

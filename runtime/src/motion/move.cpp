@@ -19,6 +19,17 @@ constexpr int kSweepMost = 256;
 // Last resort, far above what a melt does: m/s, and spacings in a step for worlds of other sizes.
 constexpr float kSpeedLimit = 30, kSpeedLimitSpacings = 100;
 
+void pushOut(const WallFinder& walls, float standoff, Vec3& x, Vec3& v) {
+    walls.forNear([&](const Collider& c) {
+        Vec3 normal;
+        const float d = c.distance(x, normal);
+        if (d >= standoff) return;
+        x += (standoff - d) * normal;
+        const float into = dot(normal, v);
+        if (into < 0) v -= into * normal;
+    });
+}
+
 } // namespace
 
 void Motion::move(const MotionFrame& f) {
@@ -42,9 +53,8 @@ void Motion::move(const MotionFrame& f) {
             around.grow(x), around.grow(to);
             reach = std::max(reach, p.position[i].w);
         }
-        around.lower -= Vec3{reach, reach, reach}, around.upper += Vec3{reach, reach, reach};
         WallFinder walls;
-        walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around);
+        walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, reach);
 
         for (int r = 8 * begin; r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
@@ -55,32 +65,31 @@ void Motion::move(const MotionFrame& f) {
                 x += way;
             } else {
                 const float nearFixed = kFixedStandoff * spacing;
-                float left = f.dt;
-                for (int n = 0; n < kSweepMost && left > 0; ++n) {
-                    const float speed = length(v);
-                    if (!(speed * left > 1e-3f * spacing)) break;
+                // Distance to the nearest wall less the standoff; while it lasts nothing is in the way.
+                const auto roomAt = [&](Vec3 at) {
                     float room = INFINITY;
                     walls.forNear([&](const Collider& c) {
                         Vec3 normal;
-                        const float d = c.distance(x, normal) - kWallStandoff * spacing;
-                        // What slides along a wall meets it no sooner than it moves toward it.
-                        room = std::min(room, std::max(d, kSweepStep * spacing));
+                        room = std::min(room, c.distance(at, normal));
                     });
-                    float length_ = std::min(room, speed * left);
-                    const float margin = nearFixed + length_;
+                    return room - kWallStandoff * spacing;
+                };
+                float left = f.dt, room = roomAt(x);
+                for (int n = 0; n < kSweepMost && left > 0; ++n) {
+                    const float speed = length(v);
+                    if (!(speed * left > 1e-3f * spacing)) break;
+                    float stride = std::min(std::max(room, kSweepStep * spacing), speed * left);
+                    const float margin = nearFixed + stride;
                     const bool amongFixed = x.x > held.lower.x - margin && x.x < held.upper.x + margin &&
                                             x.y > held.lower.y - margin && x.y < held.upper.y + margin &&
                                             x.z > held.lower.z - margin && x.z < held.upper.z + margin;
-                    if (amongFixed) length_ = std::min(length_, kSweepStep * spacing);
-                    x += (length_ / speed) * v, left -= length_ / speed;
-                    walls.forNear([&](const Collider& c) {
-                        Vec3 normal;
-                        const float d = c.distance(x, normal);
-                        if (d >= kWallStandoff * spacing) return;
-                        x += (kWallStandoff * spacing - d) * normal;
-                        const float into = dot(normal, v);
-                        if (into < 0) v -= into * normal;
-                    });
+                    if (amongFixed) stride = std::min(stride, kSweepStep * spacing);
+                    x += (stride / speed) * v, left -= stride / speed;
+                    room = roomAt(x);
+                    if (room < 0) {
+                        pushOut(walls, kWallStandoff * spacing, x, v);
+                        room = 0;
+                    }
                     if (!amongFixed) continue;
                     // The nearest of the fixed particles that it approaches; of equals the first in row order.
                     float nearest = nearFixed * nearFixed;
@@ -119,21 +128,13 @@ void Motion::move(const MotionFrame& f) {
             around.grow(p.position[i].xyz());
             reach = std::max(reach, p.position[i].w);
         }
-        around.lower -= Vec3{reach, reach, reach}, around.upper += Vec3{reach, reach, reach};
         WallFinder walls;
-        walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around);
+        walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, reach);
         for (int r = 8 * begin; r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
             const float standoff = kWallStandoff / kSupport * p.position[i].w;
             Vec3 x = p.position[i].xyz(), v = p.velocity[i].xyz();
-            walls.forNear([&](const Collider& c) {
-                Vec3 normal;
-                const float d = c.distance(x, normal);
-                if (d >= standoff) return;
-                x += (standoff - d) * normal;
-                const float into = dot(normal, v);
-                if (into < 0) v -= into * normal;
-            });
+            if (!walls.empty()) pushOut(walls, standoff, x, v);
             p.position[i].setXyz(x), p.velocity[i].setXyz(v);
             sums.c = std::max(sums.c, dot(v, v));
         }

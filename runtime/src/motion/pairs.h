@@ -35,32 +35,42 @@ struct ForcePass {
 };
 void pairForces(const ForcePass& p, int begin, int end);
 
-// out_i = sum_j k_ij ((v_i - v_j) . x_ij) x_ij
+// out_i = m_i v_i + sum_j k_ij ((v_i - v_j) . x_ij) x_ij
 struct ViscousPass {
     PairLists lists;
     const Vec4* position;
+    const Vec4* trait;
     const float* coefficient;
     const Vec4* velocity; // w is not read
     Vec4* out;            // w = 0
 };
 void pairViscosity(const ViscousPass& p, int begin, int end);
 
-// out_i = sum_j g_ij . (v_i - v_j)
-struct DivergencePass {
+// Jacobi update of the pressure: error_i = (C_i, times feedback when > 0) + dt (wall_i . v_i + sum_j g_ij . (v_i -
+// v_j)), P_i = max(0, P_i + weight error_i stiffness_i); rows with inverse density 0 keep theirs.
+struct JacobiPass {
     PairLists lists;
-    const Vec4* point;
+    const Vec4* position;
     const Vec4* velocity;
-    float* out;
+    const Vec4* wall; // xyz gradient of the wall's fraction, w C
+    const float* stiffness;
+    const float* invDensity;
+    float dt, feedback, weight;
+    float* pressure;
+    Vec4* point; // out: xyz position, w change of the pressure
 };
-void pairDivergence(const DivergencePass& p, int begin, int end);
+void pairJacobi(const JacobiPass& p, int begin, int end);
 
-// out_i = sum_j (P_i + P_j) g_ij, P in point.w
-struct GradientPass {
+// v_i -= dt / rho_i (dP_i wall_i + sum_j (dP_i + dP_j) g_ij), dP in point.w
+struct PushPass {
     PairLists lists;
     const Vec4* point;
-    Vec4* out; // w = 0
+    const Vec4* wall;
+    const float* invDensity;
+    float dt;
+    Vec4* velocity; // w is kept
 };
-void pairGradient(const GradientPass& p, int begin, int end);
+void pairPush(const PushPass& p, int begin, int end);
 
 // out_i = push apart of pairs closer than a share of their mean spacing
 struct SeparationPass {
@@ -69,5 +79,17 @@ struct SeparationPass {
     Vec4* out;            // w = 0
 };
 void pairSeparation(const SeparationPass& p, int begin, int end);
+
+// The vector work of the conjugate gradients on rows [begin, end), multiples of 8, every component alike: what has no
+// part in the solve must be zero in direction, image, residual and inverse.
+struct Dots {
+    double a = 0, b = 0;
+};
+// v += along d; r -= along q; returns r . (inverse r) and r . r
+Dots advance(float along, const Vec4* direction, const Vec4* image, const Vec4* inverse, Vec4* velocity, Vec4* residual,
+             int begin, int end);
+// d = inverse r + keep d
+void turn(float keep, const Vec4* residual, const Vec4* inverse, Vec4* direction, int begin, int end);
+double innerProduct(const Vec4* a, const Vec4* b, int begin, int end);
 
 } // namespace thaw

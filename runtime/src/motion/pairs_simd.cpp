@@ -87,7 +87,8 @@ void viscousGroups(const ViscousPass& p, int begin, int end) {
         for (int part = 0; part < 8; part += kLanes) {
             const Span s = spanOf(p.lists, g, part);
             const Rows xi = loadRows(p.position + s.row), vi = loadRows(p.velocity + s.row);
-            F32 ox = zero(), oy = zero(), oz = zero();
+            const F32 mass = loadRows(p.trait + s.row).z;
+            F32 ox = hn::Mul(mass, vi.x), oy = hn::Mul(mass, vi.y), oz = hn::Mul(mass, vi.z);
             for (uint32_t k = 0; k < s.width; ++k) {
                 const Rows xj = gatherRows(p.position, s.entry + 8 * k), vj = gatherRows(p.velocity, s.entry + 8 * k);
                 const F32 x = hn::Sub(xi.x, xj.x), y = hn::Sub(xi.y, xj.y), z = hn::Sub(xi.z, xj.z);
@@ -99,36 +100,73 @@ void viscousGroups(const ViscousPass& p, int begin, int end) {
         }
 }
 
-void divergenceGroups(const DivergencePass& p, int begin, int end) {
+void jacobiGroups(const JacobiPass& p, int begin, int end) {
     for (int g = begin; g < end; ++g)
         for (int part = 0; part < 8; part += kLanes) {
             const Span s = spanOf(p.lists, g, part);
-            const Rows xi = loadRows(p.point + s.row), vi = loadRows(p.velocity + s.row);
-            F32 sum = zero();
+            const Rows xi = loadRows(p.position + s.row), vi = loadRows(p.velocity + s.row);
+            const Rows wall = loadRows(p.wall + s.row);
+            F32 sum = dot3(wall.x, wall.y, wall.z, vi.x, vi.y, vi.z);
             for (uint32_t k = 0; k < s.width; ++k) {
-                const Rows xj = gatherRows(p.point, s.entry + 8 * k), vj = gatherRows(p.velocity, s.entry + 8 * k);
+                const Rows xj = gatherRows(p.position, s.entry + 8 * k), vj = gatherRows(p.velocity, s.entry + 8 * k);
                 const F32 along = dot3(hn::Sub(vi.x, vj.x), hn::Sub(vi.y, vj.y), hn::Sub(vi.z, vj.z),
                                        hn::Sub(xi.x, xj.x), hn::Sub(xi.y, xj.y), hn::Sub(xi.z, xj.z));
                 sum = hn::MulAdd(load(p.lists.gradient + s.start + 8 * k), along, sum);
             }
-            store(sum, p.out + s.row);
+            const F32 fed = hn::Mul(wall.w, hn::IfThenElse(hn::Gt(wall.w, zero()), all(p.feedback), all(1)));
+            const F32 error = hn::MulAdd(all(p.dt), sum, fed);
+            const F32 old = load(p.pressure + s.row);
+            F32 next = hn::MulAdd(hn::Mul(all(p.weight), error), load(p.stiffness + s.row), old);
+            next = hn::Max(zero(), next);
+            next = hn::IfThenElse(hn::Gt(load(p.invDensity + s.row), zero()), next, old);
+            store(next, p.pressure + s.row);
+            storeRows(p.point + s.row, xi.x, xi.y, xi.z, hn::Sub(next, old));
         }
 }
 
-void gradientGroups(const GradientPass& p, int begin, int end) {
+void pushGroups(const PushPass& p, int begin, int end) {
     for (int g = begin; g < end; ++g)
         for (int part = 0; part < 8; part += kLanes) {
             const Span s = spanOf(p.lists, g, part);
-            const Rows xi = loadRows(p.point + s.row);
-            F32 ox = zero(), oy = zero(), oz = zero();
+            const Rows xi = loadRows(p.point + s.row), wall = loadRows(p.wall + s.row);
+            F32 ox = hn::Mul(xi.w, wall.x), oy = hn::Mul(xi.w, wall.y), oz = hn::Mul(xi.w, wall.z);
             for (uint32_t k = 0; k < s.width; ++k) {
                 const Rows xj = gatherRows(p.point, s.entry + 8 * k);
                 const F32 f = hn::Mul(hn::Add(xi.w, xj.w), load(p.lists.gradient + s.start + 8 * k));
                 ox = hn::MulAdd(f, hn::Sub(xi.x, xj.x), ox), oy = hn::MulAdd(f, hn::Sub(xi.y, xj.y), oy);
                 oz = hn::MulAdd(f, hn::Sub(xi.z, xj.z), oz);
             }
-            storeRows(p.out + s.row, ox, oy, oz, zero());
+            const F32 scale = hn::Mul(all(-p.dt), load(p.invDensity + s.row));
+            const Rows v = loadRows(p.velocity + s.row);
+            storeRows(p.velocity + s.row, hn::MulAdd(scale, ox, v.x), hn::MulAdd(scale, oy, v.y),
+                      hn::MulAdd(scale, oz, v.z), v.w);
         }
+}
+
+Dots advanceRows(float along, const float* direction, const float* image, const float* inverse, float* velocity,
+                 float* residual, int begin, int end) {
+    const F32 a = all(along);
+    F32 rz = zero(), rr = zero();
+    for (int k = begin; k < end; k += kLanes) {
+        store(hn::MulAdd(a, load(direction + k), load(velocity + k)), velocity + k);
+        const F32 r = hn::NegMulAdd(a, load(image + k), load(residual + k));
+        store(r, residual + k);
+        const F32 r2 = hn::Mul(r, r);
+        rr = hn::Add(rr, r2), rz = hn::MulAdd(r2, load(inverse + k), rz);
+    }
+    return {sumOfLanes(rz), sumOfLanes(rr)};
+}
+
+void turnRows(float keep, const float* residual, const float* inverse, float* direction, int begin, int end) {
+    for (int k = begin; k < end; k += kLanes)
+        store(hn::MulAdd(all(keep), load(direction + k), hn::Mul(load(residual + k), load(inverse + k))),
+              direction + k);
+}
+
+double innerRows(const float* a, const float* b, int begin, int end) {
+    F32 sum = zero();
+    for (int k = begin; k < end; k += kLanes) sum = hn::MulAdd(load(a + k), load(b + k), sum);
+    return sumOfLanes(sum);
 }
 
 void separationGroups(const SeparationPass& p, int begin, int end) {
@@ -174,17 +212,29 @@ HWY_AFTER_NAMESPACE();
 namespace thaw {
 HWY_EXPORT(forceGroups);
 HWY_EXPORT(viscousGroups);
-HWY_EXPORT(divergenceGroups);
-HWY_EXPORT(gradientGroups);
+HWY_EXPORT(jacobiGroups);
+HWY_EXPORT(pushGroups);
 HWY_EXPORT(separationGroups);
+HWY_EXPORT(advanceRows);
+HWY_EXPORT(turnRows);
+HWY_EXPORT(innerRows);
 void pairForces(const ForcePass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(forceGroups)(p, begin, end); }
 void pairViscosity(const ViscousPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(viscousGroups)(p, begin, end); }
-void pairDivergence(const DivergencePass& p, int begin, int end) {
-    HWY_DYNAMIC_DISPATCH(divergenceGroups)(p, begin, end);
-}
-void pairGradient(const GradientPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(gradientGroups)(p, begin, end); }
+void pairJacobi(const JacobiPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(jacobiGroups)(p, begin, end); }
+void pairPush(const PushPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(pushGroups)(p, begin, end); }
 void pairSeparation(const SeparationPass& p, int begin, int end) {
     HWY_DYNAMIC_DISPATCH(separationGroups)(p, begin, end);
+}
+Dots advance(float along, const Vec4* direction, const Vec4* image, const Vec4* inverse, Vec4* velocity, Vec4* residual,
+             int begin, int end) {
+    return HWY_DYNAMIC_DISPATCH(advanceRows)(along, &direction->x, &image->x, &inverse->x, &velocity->x, &residual->x,
+                                             4 * begin, 4 * end);
+}
+void turn(float keep, const Vec4* residual, const Vec4* inverse, Vec4* direction, int begin, int end) {
+    HWY_DYNAMIC_DISPATCH(turnRows)(keep, &residual->x, &inverse->x, &direction->x, 4 * begin, 4 * end);
+}
+double innerProduct(const Vec4* a, const Vec4* b, int begin, int end) {
+    return HWY_DYNAMIC_DISPATCH(innerRows)(&a->x, &b->x, 4 * begin, 4 * end);
 }
 } // namespace thaw
 #endif

@@ -15,24 +15,15 @@ void Motion::pressure(const MotionFrame& f) {
     const float feedback = densityFeedback(f.subSteps), weight = jacobiWeight(f.subSteps) / (f.dt * f.dt);
     for (int iteration = 0; iteration < f.pressureIterations; ++iteration) {
         f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
-            pairDivergence({lists, point_.data(), p.velocity.data(), scalar_.data()}, begin, end);
-            for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
-                const size_t i = static_cast<size_t>(r);
-                const Vec4 wall = wallGradient_[i];
-                const float error = (wall.w > 0 ? feedback * wall.w : wall.w) +
-                                    f.dt * (scalar_[i] + dot(wall.xyz(), p.velocity[i].xyz()));
-                const float next = std::max(0.0f, p.pressure[i] + weight * error * p.stiffness[i]);
-                point_[i].w = next - p.pressure[i];
-                p.pressure[i] = next;
-            }
+            pairJacobi({lists, p.position.data(), p.velocity.data(), wallGradient_.data(), p.stiffness.data(),
+                        f.invDensity, f.dt, feedback, weight, p.pressure.data(), point_.data()},
+                       begin, end);
         });
         f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
-            pairGradient({lists, point_.data(), image_.data()}, begin, end);
+            pairPush({lists, point_.data(), wallGradient_.data(), f.invDensity, f.dt, p.velocity.data()}, begin, end);
             for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
                 const size_t i = static_cast<size_t>(r);
-                const Vec3 push = image_[i].xyz() + point_[i].w * wallGradient_[i].xyz();
-                p.velocity[i].setXyz(p.velocity[i].xyz() - (f.dt * f.invDensity[i]) * push);
-                holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
+                if (contactCount_[i]) holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
             }
         });
     }

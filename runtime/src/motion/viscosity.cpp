@@ -24,19 +24,19 @@ Vec3 divide(Vec3 a, Vec4 inverse) { return {a.x * inverse.x, a.y * inverse.y, a.
 // image = (M + walls + pairs) velocity, for the movers of the groups.
 void Motion::applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end) {
     const Particles& p = f.particles;
-    pairViscosity({PairLists(f.neighbors), p.position.data(), coefficient_.data(), velocity, image_.data()}, begin,
-                  end);
-    for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
+    pairViscosity(
+        {PairLists(f.neighbors), p.position.data(), trait_.data(), coefficient_.data(), velocity, image_.data()}, begin,
+        end);
+    const int last = std::min(8 * end, p.moverCount);
+    for (int r = 8 * begin; r < last; ++r) {
         const size_t i = static_cast<size_t>(r);
+        if (!contactCount_[i]) continue;
         const Vec3 v = velocity[i].xyz();
-        Vec3 sum = image_[i].xyz() + trait_[i].z * v;
-        if (contactCount_[i]) {
-            const Vec4 a = wallDrag_[2 * i], b = wallDrag_[2 * i + 1];
-            sum += Vec3{a.x * v.x + b.x * v.y + b.y * v.z, b.x * v.x + a.y * v.y + b.z * v.z,
-                        b.y * v.x + b.z * v.y + a.z * v.z};
-        }
-        image_[i].setXyz(sum);
+        const Vec4 a = wallDrag_[2 * i], b = wallDrag_[2 * i + 1];
+        image_[i].setXyz(image_[i].xyz() + Vec3{a.x * v.x + b.x * v.y + b.y * v.z, b.x * v.x + a.y * v.y + b.z * v.z,
+                                                b.y * v.x + b.z * v.y + a.z * v.z});
     }
+    for (int r = last; r < 8 * end; ++r) image_[static_cast<size_t>(r)] = {};
 }
 
 void Motion::viscosity(const MotionFrame& f) {
@@ -59,7 +59,7 @@ void Motion::viscosity(const MotionFrame& f) {
 
     // No-slip walls as if the liquid went on behind them with the velocity mirrored linearly, and the diagonal. The
     // start is what the last solve did to the velocities.
-    forMovers([&](int begin, int, int last, BlockSums& sums) {
+    forMovers([&](int begin, int end, int last, BlockSums& sums) {
         for (int r = 8 * begin; r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
             const float mass = trait_[i].z, h = p.position[i].w, nearest = kWallStandoff / kSupport;
@@ -86,6 +86,10 @@ void Motion::viscosity(const MotionFrame& f) {
             const double allowed = static_cast<double>(mass) * scale;
             sums.a += allowed * allowed;
         }
+        for (int r = last; r < 8 * end; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            diagonal_[i] = residual_[i] = {};
+        }
     });
     const double allowed = static_cast<double>(kTolerance) * kTolerance * total(&BlockSums::a);
 
@@ -94,7 +98,7 @@ void Motion::viscosity(const MotionFrame& f) {
         for (int r = 8 * begin; r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
             const Vec3 res = trait_[i].z * before_[i].xyz() - image_[i].xyz(), z = divide(res, diagonal_[i]);
-            residual_[i].setXyz(res);
+            residual_[i] = {res.x, res.y, res.z, 0};
             direction_[i] = {z.x, z.y, z.z, 0};
             sums.a += static_cast<double>(dot(res, z)), sums.b += static_cast<double>(dot(res, res));
         }
@@ -103,35 +107,24 @@ void Motion::viscosity(const MotionFrame& f) {
 
     int iteration = 0;
     for (; iteration < f.viscosityIterations && rr > allowed && rz > 0; ++iteration) {
-        forMovers([&](int begin, int end, int last, BlockSums& sums) {
+        forMovers([&](int begin, int end, int, BlockSums& sums) {
             applyViscosity(f, direction_.data(), begin, end);
-            for (int r = 8 * begin; r < last; ++r) {
-                const size_t i = static_cast<size_t>(r);
-                sums.a += static_cast<double>(dot(direction_[i].xyz(), image_[i].xyz()));
-            }
+            sums.a = innerProduct(direction_.data(), image_.data(), 8 * begin, 8 * end);
         });
         const double curvature = total(&BlockSums::a);
         if (!(curvature > 0)) break;
-        const float along = static_cast<float>(rz / curvature);
-        forMovers([&](int begin, int, int last, BlockSums& sums) {
-            for (int r = 8 * begin; r < last; ++r) {
-                const size_t i = static_cast<size_t>(r);
-                p.velocity[i].setXyz(p.velocity[i].xyz() + along * direction_[i].xyz());
-                const Vec3 res = residual_[i].xyz() - along * image_[i].xyz(), z = divide(res, diagonal_[i]);
-                residual_[i].setXyz(res);
-                sums.a += static_cast<double>(dot(res, z)), sums.b += static_cast<double>(dot(res, res));
-            }
+        forMovers([&](int begin, int end, int, BlockSums& sums) {
+            const Dots dots = advance(static_cast<float>(rz / curvature), direction_.data(), image_.data(),
+                                      diagonal_.data(), p.velocity.data(), residual_.data(), 8 * begin, 8 * end);
+            sums.a = dots.a, sums.b = dots.b;
         });
         const double next = total(&BlockSums::a);
         rr = total(&BlockSums::b);
         const float keep = static_cast<float>(next / rz);
         rz = next;
         if (!(rr > allowed)) continue;
-        forMovers([&](int begin, int, int last, BlockSums&) {
-            for (int r = 8 * begin; r < last; ++r) {
-                const size_t i = static_cast<size_t>(r);
-                direction_[i].setXyz(divide(residual_[i].xyz(), diagonal_[i]) + keep * direction_[i].xyz());
-            }
+        forMovers([&](int begin, int end, int, BlockSums&) {
+            turn(keep, residual_.data(), diagonal_.data(), direction_.data(), 8 * begin, 8 * end);
         });
     }
     stats_.viscosityIterations = iteration;

@@ -14,9 +14,10 @@ inline constexpr float kWallRecovery = 0.2f;
 // The colliders near a block of rows: rows of a block lie together, so most colliders are ruled out once for all.
 class WallFinder {
 public:
-    void gather(const Collider* colliders, const Box* bounds, int colliderCount, const Box& around);
+    // Those that some point of the box may be nearer to than `reach`.
+    void gather(const Collider* colliders, const Box* bounds, int colliderCount, const Box& box, float reach);
     bool empty() const { return count_ == 0; }
-    // Calls f(collider) for every one that may reach into the box, in order of index.
+    // Calls f(collider) for every one of them, in order of index.
     template <class F> void forNear(F&& f) const {
         if (all_) {
             for (int c = 0; c < colliderCount_; ++c)
