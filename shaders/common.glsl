@@ -11,6 +11,7 @@ const int MAX_MATERIALS = 16;
 uniform mat4 uView, uProjection;
 uniform vec3 uEye, uCameraRight, uCameraUp, uCameraForward; // right and up scaled by the tangents of the half angles
 uniform float uSceneRadius, uFloorHeight;
+uniform vec2 uNearFar; // m
 
 uniform vec3 uKeyDirection, uKeyColor; // towards the light; irradiance at normal incidence
 uniform vec3 uKeyRight, uKeyUp;
@@ -28,6 +29,9 @@ uniform vec3 uFlameColor[MAX_FLAMES];    // radiant intensity
 uniform vec3 uFlameAxis[SHADOWED_FLAMES], uFlameRight[SHADOWED_FLAMES], uFlameUp[SHADOWED_FLAMES];
 uniform float uFlameReach;
 uniform sampler2DArray uFlameMap;
+
+// What a pixel of the geometry buffer shows.
+const float KIND_NOTHING = 0.0, KIND_THING = 1.0, KIND_FLOOR = 2.0, KIND_DATA = 3.0;
 
 float saturate(float x) { return clamp(x, 0.0, 1.0); }
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
@@ -88,6 +92,11 @@ float ggx(vec3 n, vec3 v, vec3 l, float roughness) {
 vec3 backdrop(vec2 uv) {
     vec2 d = (uv - vec2(0.5, 0.56)) * vec2(1.15, 1.25);
     return mix(uBackdropCenter, uBackdropEdge, smoothstep(0.0, 0.78, length(d)));
+}
+
+// Distance along the line of sight of a value in the depth buffer.
+float viewDepth(float d) {
+    return 2.0 * uNearFar.x * uNearFar.y / (uNearFar.y + uNearFar.x - (2.0 * d - 1.0) * (uNearFar.y - uNearFar.x));
 }
 
 vec3 worldAt(vec2 uv, float depth) {

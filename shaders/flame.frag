@@ -8,6 +8,8 @@ in vec2 vLocal;
 uniform int uShape; // 0 flame, 1 ball, 2 halo only
 uniform vec3 uTint;
 uniform float uBrightness, uTime;
+uniform sampler2DMS uDepths;
+uniform int uSampleCount;
 out vec4 oColor;
 
 // Half width of the outline at height y (0 bottom, 1 tip).
@@ -36,9 +38,9 @@ void main() {
         float dark = layer(q, -0.08, 0.40, 0.34);
         float base = layer(q, -0.05, 0.36, 0.86);
         float rise = smoothstep(0.02, 0.42, q.y);
-        light += vec3(1.0, 0.30, 0.045) * mantle * mantle * 1.1 * mix(0.25, 1.0, rise);
-        light += vec3(1.0, 0.60, 0.17) * pow(body, 1.5) * 4.0 * rise;
-        light += vec3(1.0, 0.83, 0.46) * pow(core, 1.5) * 7.0 * rise;
+        light += vec3(1.0, 0.30, 0.045) * mantle * mantle * 0.9 * mix(0.25, 1.0, rise);
+        light += vec3(1.0, 0.60, 0.17) * pow(body, 1.4) * 2.6 * rise;
+        light += vec3(1.0, 0.83, 0.46) * pow(core, 1.4) * 4.2 * rise;
         light *= 1.0 - 0.6 * dark * (1.0 - smoothstep(0.2, 0.45, q.y));
         light += vec3(0.10, 0.22, 0.9) * base * (1.0 - smoothstep(0.0, 0.3, q.y)) * 0.55;
         light *= uTint / vec3(1.0, 0.58, 0.22);
@@ -55,5 +57,8 @@ void main() {
         float halo = saturate(1.0 - length(vLocal));
         light = uTint * 0.05 * halo * halo * halo;
     }
-    oColor = vec4(light * uBrightness, 0.0);
+    float seen = 0.0;
+    for (int s = 0; s < uSampleCount; ++s)
+        seen += texelFetch(uDepths, ivec2(gl_FragCoord.xy), s).r > gl_FragCoord.z ? 1.0 : 0.0;
+    oColor = vec4(light * (uBrightness * seen / float(uSampleCount)), 0.0);
 }

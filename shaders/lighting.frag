@@ -96,13 +96,13 @@ vec3 flames(vec3 p, vec3 n, float translucency, float phase) {
 
 void main() {
     vec4 g = texelFetch(uGeometry, ivec2(gl_FragCoord.xy), 0);
-    oLight = vec4(1.0, 1.0, 0.0, 1.0);
-    oFlame = vec4(0.0);
-    if (g.z <= 0.0) return;
+    if (g.z <= 0.0) discard; // of no use to anyone, and leaves the pass early
     vec3 n = octDecode(g.xy);
     vec3 p = worldAt(vUv, g.z);
     float phase = 2.0 * PI * gradientNoise(gl_FragCoord.xy);
     oLight.x = occlusion(p, n, g.z, phase);
     oLight.yz = keyLight(p, n, g.w, phase);
     oFlame.rgb = min(flames(p, n, g.w, phase), vec3(200.0));
+    oLight.w = 1.0;
+    oFlame.a = 1.0;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 
-// Melt surfaces and still meshes. The pass is one of COLOR_PASS, GEOMETRY_PASS, KEY_PASS, FLAME_PASS.
+// Melt surfaces, still meshes and the floor. The pass is one of CAMERA_PASS, KEY_PASS, FLAME_PASS.
 
 layout(location = 0) in vec3 aPosition;
 layout(location = 1) in vec3 aNormal;
@@ -17,7 +17,6 @@ uniform float uClipFloor; // 1: drop what is under the floor
 
 out vec3 vPosition;
 out vec3 vNormal;
-out float vDepth;
 out vec4 vAlbedo; // w: translucency
 out vec3 vState;  // temperature, liquid fraction, roughness
 
@@ -34,12 +33,10 @@ void main() {
 #else
     vPosition = world.xyz;
     vNormal = mat3(uModel) * aNormal;
-    vec4 inView = uView * world;
-    vDepth = -inView.z;
     int material = clamp(int(aMaterial + 0.5), 0, MAX_MATERIALS - 1);
     vAlbedo = uMaterialColor[material];
     vState = vec3(aTemperature, aLiquid, uMaterialRoughness[material]);
     gl_ClipDistance[0] = mix(1.0, world.y - uFloorHeight, uClipFloor);
-    gl_Position = uProjection * inView;
+    gl_Position = uProjection * uView * world;
 #endif
 }

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 
-out vec4 oGeometry;
+layout(location = 0) out vec4 oNormal;
+layout(location = 1) out vec4 oAlbedo;
 
 void main() {
     raiseSphere();
-    oGeometry = vec4(octEncode(sphereNormal), sphereDepth, 0.0);
+    oNormal = vec4(octEncode(sphereNormal), 0.5, KIND_DATA);
+    oAlbedo = vec4(sqrt(vTint), 0.0);
 }

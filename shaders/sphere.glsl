@@ -9,7 +9,6 @@ in vec3 vTint;
 flat in float vRadius;
 
 vec3 spherePosition, sphereNormal;
-float sphereDepth;
 
 void raiseSphere() {
     float r2 = dot(vCorner, vCorner);
@@ -23,6 +22,5 @@ void raiseSphere() {
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
     sphereNormal = transpose(mat3(uView)) * n;
     spherePosition = transpose(mat3(uView)) * (p - uView[3].xyz);
-    sphereDepth = -p.z;
 #endif
 }

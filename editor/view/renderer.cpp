@@ -4,14 +4,16 @@
 // A picture is made in these passes; numbers are for 960 x 540.
 //
 //   key map (1024^2) and flame maps (512^2 each): depth from the lights
-//   geometry (480 x 270): normal, depth, translucency  ->  lighting: occlusion, soft shadow, light through wax, flames
-//                                                      ->  blur along surfaces, two directions
-//   mirror (480 x 270): what the table reflects, without the light buffers
-//   colour (960 x 540, multisampled, linear, half floats): backdrop, floor, melt, meshes, particles, flames
-//   resolve -> glow (240 x 135 and 120 x 68) -> composite (film curve, sRGB) -> scale or key
+//   geometry (960 x 540, multisampled): normal, roughness, kind; colour, translucency; depth
+//   reduce (480 x 270) -> lighting: occlusion, soft shadow, light through wax, flames -> blur along surfaces
+//   mirror (480 x 270): what the table reflects
+//   classify -> shade (960 x 540, linear, half floats), one pass per kind of pixel, edges per sample -> flames
+//   glow (240 x 135 and 120 x 68) -> composite (film curve, sRGB) -> scale or key
 //
 // The slow light at half size is what makes this affordable on a software rasteriser: shadows, occlusion and light in
-// wax have no detail that a quarter of the pixels would miss, and they need some 40 texture reads each.
+// wax have no detail that a quarter of the pixels would miss, and they need some 40 texture reads each. Shading after
+// the geometry and not with it is the other half: with triangles of a pixel or two llvmpipe ran the long shader 16
+// times a pixel, and the frame took four times as long.
 
 #include "view/renderer.h"
 
@@ -28,6 +30,7 @@ namespace thaw::view {
 namespace {
 
 constexpr int kKeyMapSize = 1024, kFlameMapSize = 512;
+constexpr float kFlameHalfWidth = 0.25f;                               // of a flame's height
 constexpr int kMaxFlames = 8, kShadowedFlames = 4, kMaxMaterials = 16; // as in common.glsl
 
 // Texture units, fixed for the whole frame.
@@ -39,6 +42,10 @@ enum Unit : int {
     unitFlame,
     unitMirror,
     unitRamp,
+    unitNormals,
+    unitAlbedos,
+    unitDepths,
+    unitKinds,
     unitSource,
     unitNear,
     unitFar
@@ -90,7 +97,7 @@ Bounds transformed(const Bounds& b, const MeshInstance& instance) {
     return out;
 }
 
-float flameHeight(const Glow& glow) { return glow.height > 0 ? glow.height : 7 * glow.radius; }
+float flameHeight(const Glow& glow) { return glow.height > 0 ? glow.height : 8 * glow.radius; }
 
 std::array<float, 3> floats(Vec3 v) { return {v.x, v.y, v.z}; }
 
@@ -134,13 +141,13 @@ struct Renderer::State {
     std::string rendererText;
     GLint maxSamples = 4;
 
-    GlProgram meshColor, meshGeometry, meshKey, meshFlame;
-    GlProgram particleColor, particleGeometry, particleKey;
-    GlProgram floorColor, backdrop, lighting, blur, flame, resolve, bloomDown, bloomBlur, composite, overlay;
-    std::array<GlProgram*, 17> programs{
-        &meshColor,   &meshGeometry, &meshKey,   &meshFlame, &particleColor, &particleGeometry,
-        &particleKey, &floorColor,   &backdrop,  &lighting,  &blur,          &flame,
-        &resolve,     &bloomDown,    &bloomBlur, &composite, &overlay};
+    GlProgram meshGeometry, meshKey, meshFlame, meshMirror, particleGeometry, particleKey;
+    GlProgram reduce, mirrorBlur, lighting, blur, classify, shadeBackdrop, shadeThing, shadeFloor, shadeData, shadeEdge,
+        flame, bloomDown, bloomBlur, composite, overlay;
+    std::array<GlProgram*, 21> programs{
+        &meshGeometry, &meshKey,   &meshFlame, &meshMirror, &particleGeometry, &particleKey, &reduce,
+        &mirrorBlur,   &lighting,  &blur,      &classify,   &shadeBackdrop,    &shadeThing,  &shadeFloor,
+        &shadeData,    &shadeEdge, &flame,     &bloomDown,  &bloomBlur,        &composite,   &overlay};
 
     GlVertexArray empty;
     MeshBuffers surface, floorMesh;
@@ -153,9 +160,9 @@ struct Renderer::State {
 
     // Sized to the picture.
     int width = 0, height = 0, samples = 0, lightWidth = 0, lightHeight = 0;
-    Target geometry, mirror, picture, multisampled, output, bloom[2][2];
-    GlTexture geometryDepth, mirrorDepth, pictureDepth, lightTextures[2][2];
-    GlFramebuffer lightFramebuffers[2];
+    Target geometry, mirror, mirrorBlurred, kinds, picture, output, bloom[2][2];
+    GlTexture mirrorDepth, lightTextures[2][2], sampleNormals, sampleAlbedos, sampleDepths;
+    GlFramebuffer lightFramebuffers[2], sampleFramebuffer;
 
     std::vector<float> values; // of particles, 0..1
 
@@ -187,19 +194,23 @@ bool Renderer::State::build(std::string& error) {
         const char *vertex, *fragment, *pass;
     };
     const Recipe recipes[] = {
-        {meshColor, "mesh.vert", "shade.glsl+surface.frag", "COLOR_PASS"},
-        {meshGeometry, "mesh.vert", "geometry.frag", "GEOMETRY_PASS"},
+        {meshGeometry, "mesh.vert", "geometry.frag", "CAMERA_PASS"},
         {meshKey, "mesh.vert", "depth.frag", "KEY_PASS"},
         {meshFlame, "mesh.vert", "depth.frag", "FLAME_PASS"},
-        {particleColor, "particle.vert", "sphere.glsl+shade.glsl+particle.frag", "COLOR_PASS"},
-        {particleGeometry, "particle.vert", "sphere.glsl+particle_geometry.frag", "GEOMETRY_PASS"},
+        {meshMirror, "mesh.vert", "mirror.frag", "CAMERA_PASS"},
+        {particleGeometry, "particle.vert", "sphere.glsl+particle_geometry.frag", "CAMERA_PASS"},
         {particleKey, "particle.vert", "sphere.glsl+particle_depth.frag", "KEY_PASS"},
-        {floorColor, "mesh.vert", "shade.glsl+floor.frag", "COLOR_PASS"},
-        {backdrop, "fullscreen.vert", "backdrop.frag", ""},
+        {reduce, "fullscreen.vert", "reduce.frag", ""},
         {lighting, "fullscreen.vert", "lighting.frag", ""},
         {blur, "fullscreen.vert", "blur.frag", ""},
+        {mirrorBlur, "fullscreen.vert", "mirror_blur.frag", ""},
+        {classify, "fullscreen.vert", "classify.frag", ""},
+        {shadeBackdrop, "fullscreen.vert", "shade.frag", "BACKDROP_PASS"},
+        {shadeThing, "fullscreen.vert", "shade.frag", "THING_PASS"},
+        {shadeFloor, "fullscreen.vert", "shade.frag", "FLOOR_PASS"},
+        {shadeData, "fullscreen.vert", "shade.frag", "DATA_PASS"},
+        {shadeEdge, "fullscreen.vert", "shade.frag", "EDGE_PASS"},
         {flame, "flame.vert", "flame.frag", ""},
-        {resolve, "fullscreen.vert", "resolve.frag", ""},
         {bloomDown, "fullscreen.vert", "bloom_down.frag", ""},
         {bloomBlur, "fullscreen.vert", "bloom_blur.frag", ""},
         {composite, "fullscreen.vert", "composite.frag", ""},
@@ -216,7 +227,10 @@ bool Renderer::State::build(std::string& error) {
         r.program.set("uMirror", unitMirror);
         r.program.set("uRamp", unitRamp);
         r.program.set("uSource", unitSource);
-        r.program.set("uSamples", unitSource);
+        r.program.set("uNormals", unitNormals);
+        r.program.set("uKinds", unitKinds);
+        r.program.set("uAlbedos", unitAlbedos);
+        r.program.set("uDepths", unitDepths);
         r.program.set("uPicture", unitSource);
         r.program.set("uBloomNear", unitNear);
         r.program.set("uBloomFar", unitFar);
@@ -307,7 +321,7 @@ bool Renderer::State::resize(int w, int h, int wantedSamples, std::string& error
     // Small pictures light every pixel: at half of 320 x 180 a drip is one sample wide.
     const int divisor = w * h > 300000 ? 2 : 1;
     lightWidth = (w + divisor - 1) / divisor, lightHeight = (h + divisor - 1) / divisor;
-    if (!colorTarget(geometry, GL_RGBA32F, lightWidth, lightHeight, GL_NEAREST, &geometryDepth, error)) return false;
+    if (!colorTarget(geometry, GL_RGBA32F, lightWidth, lightHeight, GL_NEAREST, nullptr, error)) return false;
     for (int i = 0; i < 2; ++i) {
         texture(lightTextures[i][0], GL_RGBA8, lightWidth, lightHeight, GL_NEAREST);
         texture(lightTextures[i][1], GL_RGBA16F, lightWidth, lightHeight, GL_NEAREST);
@@ -321,6 +335,8 @@ bool Renderer::State::resize(int w, int h, int wantedSamples, std::string& error
             return error = "the driver refuses the light buffers", false;
     }
     if (!colorTarget(mirror, GL_RGBA16F, (w + 1) / 2, (h + 1) / 2, GL_LINEAR, &mirrorDepth, error)) return false;
+    if (!colorTarget(mirrorBlurred, GL_RGBA16F, (w + 1) / 2, (h + 1) / 2, GL_LINEAR, nullptr, error)) return false;
+    if (!colorTarget(kinds, GL_R8, w, h, GL_NEAREST, nullptr, error)) return false;
     if (!colorTarget(picture, GL_RGBA16F, w, h, GL_LINEAR, nullptr, error)) return false;
     if (!colorTarget(output, GL_RGBA8, w, h, GL_NEAREST, nullptr, error)) return false;
     for (int i = 0; i < 2; ++i)
@@ -329,14 +345,18 @@ bool Renderer::State::resize(int w, int h, int wantedSamples, std::string& error
                              nullptr, error))
                 return false;
 
-    bindTexture(unitSource, GL_TEXTURE_2D_MULTISAMPLE, multisampled.texture.get());
-    glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, n, GL_RGBA16F, w, h, GL_TRUE);
-    bindTexture(unitSource, GL_TEXTURE_2D_MULTISAMPLE, pictureDepth.get());
-    glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, n, GL_DEPTH_COMPONENT24, w, h, GL_TRUE);
-    glBindFramebuffer(GL_FRAMEBUFFER, multisampled.framebuffer.get());
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, multisampled.texture.get(),
-                           0);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D_MULTISAMPLE, pictureDepth.get(), 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, sampleFramebuffer.get());
+    const auto sampled = [&](GlTexture& target, GLenum format, GLenum attachment) {
+        bindTexture(unitSource, GL_TEXTURE_2D_MULTISAMPLE, target.get());
+        glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, n, format, w, h, GL_TRUE);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D_MULTISAMPLE, target.get(), 0);
+    };
+    sampled(sampleNormals, GL_RGBA16F, GL_COLOR_ATTACHMENT0);
+    sampled(sampleAlbedos, GL_RGBA8, GL_COLOR_ATTACHMENT1);
+    sampled(sampleDepths, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
+    bindTexture(unitSource, GL_TEXTURE_2D_MULTISAMPLE, 0);
+    const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glDrawBuffers(2, both);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return error = "the driver refuses " + std::to_string(n) + " samples at " + std::to_string(w) + " x " +
                        std::to_string(h),
@@ -492,7 +512,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         const float soft = std::max(glow.radius, 0.13f * radius);
         const float values4[4] = {glow.position.x, glow.position.y, glow.position.z, soft};
         std::copy(values4, values4 + 4, flamePositions.begin() + static_cast<std::ptrdiff_t>(i * 4));
-        const Vec3 color = glow.color * (strength * flicker * 3.2f);
+        const Vec3 color = glow.color * (strength * flicker * 4.2f);
         std::memcpy(&flameColors[i * 3], &color, 12);
         if (i < kShadowedFlames) {
             flameAxes[i] = normalize(center - glow.position, {0, -1, 0});
@@ -574,6 +594,9 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         vec(p, "uCameraRight", right * (tanHalf * aspect));
         vec(p, "uCameraForward", forward);
         p.set("uSceneRadius", radius);
+        p.set("uNearFar", near, far);
+        p.set("uPictureSize", static_cast<float>(view.width), static_cast<float>(view.height));
+        p.set("uSampleCount", samples);
         p.set("uFloorHeight", scene.floor.height);
         vec(p, "uKeyDirection", keyDirection);
         vec(p, "uKeyColor", keyColor);
@@ -597,7 +620,6 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         p.set3("uFlameUp", &flameUps[0].x, kShadowedFlames);
         p.set("uFlameReach", flameReach);
         p.set("uClipFloor", 0.0f);
-        p.set("uCheap", 0.0f);
         p.set("uMode", modeNumber);
         p.set("uLightScale", static_cast<float>(lightWidth) / view.width,
               static_cast<float>(lightHeight) / view.height);
@@ -624,14 +646,18 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     };
     const bool showSurface = surface.indexCount > 0;
     // Meshes and particles of the scene with a pair of programs.
-    const auto drawThings = [&](GlProgram& meshProgram, GlProgram* particleProgram, bool castersOnly) {
+    const auto drawThings = [&](GlProgram& meshProgram, GlProgram* particleProgram, bool castersOnly,
+                                bool cull = false) {
         meshProgram.use();
         glVertexAttrib1f(2, low);
         glVertexAttrib1f(3, 0);
         glVertexAttrib1f(4, 0);
         if (showSurface) {
+            // A melt surface is closed and its triangles turn outward; of other meshes nobody promises that.
+            if (cull) glEnable(GL_CULL_FACE);
             setMaterial(meshProgram, nullptr);
             drawIndexed(surface);
+            glDisable(GL_CULL_FACE);
         }
         for (size_t i = 0; i < meshes.size(); ++i) {
             if (castersOnly && !scene.meshes[i].castsShadow) continue;
@@ -651,13 +677,15 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CCW);
     glDisable(GL_FRAMEBUFFER_SRGB);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
-    glEnable(GL_CLIP_DISTANCE0);
+    glDisable(GL_CLIP_DISTANCE0);
     bindTexture(unitRamp, GL_TEXTURE_2D, ramp.get());
 
     // Maps of the lights.
@@ -667,6 +695,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     glClear(GL_DEPTH_BUFFER_BIT);
     drawThings(meshKey, &particleKey, true);
     glDisable(GL_DEPTH_CLAMP);
+    glEnable(GL_CLIP_DISTANCE0);
     glViewport(0, 0, kFlameMapSize, kFlameMapSize);
     glBindFramebuffer(GL_FRAMEBUFFER, flameFramebuffer.get());
     for (int i = 0; i < std::min(flameCount, kShadowedFlames) && view.mode == ViewMode::shaded; ++i) {
@@ -679,25 +708,69 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     bindTexture(unitKeyMap, GL_TEXTURE_2D, keyMap.get());
     bindTexture(unitFlameMap, GL_TEXTURE_2D_ARRAY, flameMap.get());
 
+    // Mirror image of the table.
+    const bool reflects = floorShown && !dataView && scene.floor.reflectivity > 0;
+    glBindFramebuffer(GL_FRAMEBUFFER, mirror.framebuffer.get());
+    glViewport(0, 0, mirror.width, mirror.height);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (reflects) {
+        const float y2 = 2 * scene.floor.height;
+        Mat4 flip;
+        flip.m = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, y2, 0, 1};
+        meshMirror.use();
+        setCamera(meshMirror, viewM * flip, {camera.eye.x, y2 - camera.eye.y, camera.eye.z}, up);
+        meshMirror.set("uClipFloor", 1.0f);
+        drawThings(meshMirror, nullptr, false);
+    }
+    glDisable(GL_CLIP_DISTANCE0);
+    bindTexture(unitMirror, GL_TEXTURE_2D, mirror.texture.get());
+    glDisable(GL_DEPTH_TEST);
+    glBindFramebuffer(GL_FRAMEBUFFER, mirrorBlurred.framebuffer.get());
+    mirrorBlur.use();
+    fullscreen();
+    bindTexture(unitMirror, GL_TEXTURE_2D, mirrorBlurred.texture.get());
+    glEnable(GL_DEPTH_TEST);
+
+    // Geometry.
     MeshInstance ground;
     ground.position = {center.x, scene.floor.height, center.z};
     ground.scale = floorRadius;
-    const auto drawFloor = [&](GlProgram& p) {
-        p.use();
-        setMaterial(p, &ground);
+    ground.color = dataView ? Vec3{0.075f, 0.077f, 0.082f} : scene.floor.color;
+    glBindFramebuffer(GL_FRAMEBUFFER, sampleFramebuffer.get());
+    glViewport(0, 0, view.width, view.height);
+    glEnable(GL_MULTISAMPLE);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    meshGeometry.use();
+    const Vec3 phases[3] = {phaseColor(Phase::solid), phaseColor(Phase::mushy), phaseColor(Phase::liquid)};
+    meshGeometry.set3("uPhaseColor", &phases[0].x, 3);
+    meshGeometry.set("uPhaseLimits", kSolidBelow, kLiquidAbove);
+    drawThings(meshGeometry, &particleGeometry, false, true);
+    if (floorShown) {
+        meshGeometry.use();
+        setMaterial(meshGeometry, &ground);
+        meshGeometry.set("uMode", 4);
         drawIndexed(floorMesh);
-    };
+    }
+    bindTexture(unitNormals, GL_TEXTURE_2D_MULTISAMPLE, sampleNormals.get());
+    bindTexture(unitAlbedos, GL_TEXTURE_2D_MULTISAMPLE, sampleAlbedos.get());
+    bindTexture(unitDepths, GL_TEXTURE_2D_MULTISAMPLE, sampleDepths.get());
 
     // Slow light.
-    glBindFramebuffer(GL_FRAMEBUFFER, geometry.framebuffer.get());
-    glViewport(0, 0, lightWidth, lightHeight);
-    glClearColor(0, 0, 0, 0);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    drawThings(meshGeometry, &particleGeometry, false);
-    if (floorShown) drawFloor(meshGeometry);
     glDisable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
+    glBindFramebuffer(GL_FRAMEBUFFER, geometry.framebuffer.get());
+    glViewport(0, 0, lightWidth, lightHeight);
+    reduce.use();
+    fullscreen();
     bindTexture(unitGeometry, GL_TEXTURE_2D, geometry.texture.get());
+    // Where nothing is they keep these values: whatever was left there must not seep into the picture.
+    const float open[4] = {1, 1, 0, 1}, dark[4] = {0, 0, 0, 1};
+    for (GlFramebuffer& lightFramebuffer : lightFramebuffers) {
+        glBindFramebuffer(GL_FRAMEBUFFER, lightFramebuffer.get());
+        glClearBufferfv(GL_COLOR, 0, open);
+        glClearBufferfv(GL_COLOR, 1, dark);
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, lightFramebuffers[0].get());
     lighting.use();
     lighting.set("uOcclusionRadius", 0.16f * radius);
@@ -715,97 +788,42 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     bindTexture(unitLight, GL_TEXTURE_2D, lightTextures[0][0].get());
     bindTexture(unitFlame, GL_TEXTURE_2D, lightTextures[0][1].get());
 
-    const auto drawFlames = [&](Vec3 eye, const Mat4& v, Vec3 u, float brightness) {
-        flame.use();
-        setCamera(flame, v, eye, u);
-        flame.set("uTime", scene.time);
-        glEnable(GL_BLEND);
-        glBlendFunc(GL_ONE, GL_ONE);
-        glDepthMask(GL_FALSE);
-        glBindVertexArray(empty.get());
-        for (const Glow& glow : scene.glows) {
-            if (glow.shape == GlowShape::hidden) continue;
-            const bool cold = glow.power <= 0, ball = cold || glow.shape == GlowShape::ball;
-            const float h = flameHeight(glow);
-            // The teardrop is at its widest 0.19 of its height from the axis; the square is three times that.
-            const Vec3 middle = ball ? glow.position : glow.position + Vec3{0, h / 6, 0};
-            vec(flame, "uFlameCenter", middle);
-            flame.set("uFlameSize", ball ? 2 * glow.radius : 0.19f * 3 * h, ball ? 2 * glow.radius : 0.8f * h);
-            flame.set("uUpright", ball ? 0 : 1);
-            flame.set("uShape", ball ? 1 : 0);
-            vec(flame, "uTint", cold ? Vec3{0.12f, 0.35f, 1.0f} : glow.color);
-            flame.set("uBrightness", brightness * (cold ? 0.6f : 0.75f + 0.5f * glow.power / (glow.power + 25)));
-            glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-        }
-        glDisable(GL_BLEND);
-        glDepthMask(GL_TRUE);
-    };
-
-    // Mirror image of the table.
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glBindFramebuffer(GL_FRAMEBUFFER, mirror.framebuffer.get());
-    glViewport(0, 0, mirror.width, mirror.height);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    const bool reflects = floorShown && !dataView && scene.floor.reflectivity > 0;
-    if (reflects) {
-        const float y2 = 2 * scene.floor.height;
-        Mat4 flip;
-        flip.m = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, y2, 0, 1};
-        const Mat4 mirrored = viewM * flip;
-        const Vec3 mirroredEye{camera.eye.x, y2 - camera.eye.y, camera.eye.z};
-        for (GlProgram* p : {&meshColor, &particleColor}) {
-            p->use();
-            setCamera(*p, mirrored, mirroredEye, up);
-            p->set("uClipFloor", 1.0f);
-            p->set("uCheap", 1.0f);
-        }
-        drawThings(meshColor, &particleColor, false);
-        for (GlProgram* p : {&meshColor, &particleColor}) {
-            p->use();
-            setCamera(*p, viewM, camera.eye, up);
-            p->set("uClipFloor", 0.0f);
-            p->set("uCheap", 0.0f);
-        }
-    }
-    bindTexture(unitMirror, GL_TEXTURE_2D, mirror.texture.get());
-
     // Colour.
-    glBindFramebuffer(GL_FRAMEBUFFER, multisampled.framebuffer.get());
     glViewport(0, 0, view.width, view.height);
-    glEnable(GL_MULTISAMPLE);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_FALSE);
-    backdrop.use();
+    glBindFramebuffer(GL_FRAMEBUFFER, kinds.framebuffer.get());
+    classify.use();
     fullscreen();
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    meshColor.use();
-    const Vec3 phases[3] = {phaseColor(Phase::solid), phaseColor(Phase::mushy), phaseColor(Phase::liquid)};
-    meshColor.set3("uPhaseColor", &phases[0].x, 3);
-    meshColor.set("uPhaseLimits", kSolidBelow, kLiquidAbove);
-    drawThings(meshColor, &particleColor, false);
-    if (floorShown) {
-        floorColor.use();
-        vec(floorColor, "uFloorColor", dataView ? Vec3{0.075f, 0.077f, 0.082f} : scene.floor.color);
-        vec(floorColor, "uFloorCenter", ground.position);
-        floorColor.set("uReflectivity", reflects ? scene.floor.reflectivity : 0.0f);
-        floorColor.set("uFadeRadius", 6.5f * radius);
-        floorColor.set("uPictureSize", static_cast<float>(view.width), static_cast<float>(view.height));
-        drawFloor(floorColor);
-    }
-    drawFlames(camera.eye, viewM, up, dataView ? 0.12f : 1.0f);
-
-    // From samples to the picture.
-    glDisable(GL_CLIP_DISTANCE0);
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_FALSE);
+    bindTexture(unitKinds, GL_TEXTURE_2D, kinds.texture.get());
     glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer.get());
-    bindTexture(unitSource, GL_TEXTURE_2D_MULTISAMPLE, multisampled.texture.get());
-    resolve.use();
-    resolve.set("uSampleCount", samples);
-    fullscreen();
+    for (GlProgram* p : {&shadeBackdrop, &shadeThing, &shadeFloor, &shadeData, &shadeEdge}) {
+        p->use();
+        p->set("uPlain", dataView ? 1 : 0);
+        vec(*p, "uFloorCenter", ground.position);
+        p->set("uReflectivity", reflects ? scene.floor.reflectivity : 0.0f);
+        p->set("uFadeRadius", 6.5f * radius);
+        fullscreen();
+    }
+    flame.use();
+    flame.set("uTime", scene.time);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    for (const Glow& glow : scene.glows) {
+        if (glow.shape == GlowShape::hidden) continue;
+        const bool cold = glow.power <= 0, ball = cold || glow.shape == GlowShape::ball;
+        const float h = flameHeight(glow), warmth = cold ? 0.6f : 0.75f + 0.5f * glow.power / (glow.power + 25);
+        // A third of the flame is below its position; the square is larger, for the halo (see flame.frag).
+        vec(flame, "uFlameCenter", ball ? glow.position : glow.position + Vec3{0, h / 6, 0});
+        flame.set("uFlameSize", ball ? 2 * glow.radius : kFlameHalfWidth * 3 * h, ball ? 2 * glow.radius : 0.8f * h);
+        flame.set("uUpright", ball ? 0 : 1);
+        flame.set("uShape", ball ? 1 : 0);
+        vec(flame, "uTint", cold ? Vec3{0.12f, 0.35f, 1.0f} : glow.color);
+        flame.set("uBrightness", warmth * (dataView ? 0.12f : 1.0f));
+        glBindVertexArray(empty.get());
+        glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    }
+    glDisable(GL_BLEND);
+
+    // Glow.
     for (int i = 0; i < 2 && !dataView; ++i) {
         const Target &from = i == 0 ? picture : bloom[0][0], &to = bloom[i][0], &side = bloom[i][1];
         const auto into = [&](const Target& target, const Target& source) {
@@ -864,7 +882,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
 
     for (int unit = unitFar; unit >= 0; --unit) {
         bindTexture(unit, GL_TEXTURE_2D, 0);
-        if (unit == unitSource) glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
+        glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
         if (unit == unitFlameMap) glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
     }
     glDepthMask(GL_TRUE);

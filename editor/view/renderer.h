@@ -54,7 +54,7 @@ struct Glow {
     float power = 20;       // W; not above zero: drawn as a cold blue ball that gives no light
     float radius = 0.005f;  // m
     GlowShape shape = GlowShape::flame;
-    float height = 0; // m of a flame; 0: seven radii
+    float height = 0; // m of a flame; 0: eight radii
     Vec3 color{1.0f, 0.58f, 0.22f};
 };
 
@@ -62,7 +62,7 @@ struct Glow {
 struct KeyLight {
     Vec3 direction{-0.62f, 0.66f, 0.36f}; // towards the light, any length but 0
     Vec3 color{1.0f, 0.95f, 0.88f};       // linear RGB
-    float intensity = 1.55f;
+    float intensity = 1.0f;
     float angle = 0.16f; // rad, radius of the light as seen from the scene: how soft shadows are; range 0..0.5
 };
 
