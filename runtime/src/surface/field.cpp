@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "surface/field.h"
 
+#include "surface/field_simd.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -60,7 +62,7 @@ struct SurfaceField::Candidates {
 };
 
 float SurfaceField::mobility(float company) {
-    constexpr float kNone = .5f, kAll = 0.6f;
+    constexpr float kNone = 0.45f, kAll = 0.65f;
     return std::clamp((company - kNone) / (kAll - kNone), 0.0f, 1.0f);
 }
 
@@ -109,7 +111,7 @@ bool SurfaceField::findBlocks(const SurfaceInput& input) {
         const Vec4& p = input.positions[i];
         float spacing = p.w / kSupport, radius = std::max(kReach * spacing, kReachCells * float(cell_));
         float ratio = spacing / radius;
-        reach_[i] = {radius, 315 / (64 * 3.14159265f) * ratio * ratio * ratio, 0};
+        reach_[i] = {radius, 315 / (64 * kPi) * ratio * ratio * ratio, 0};
         lowest[0] = std::min(lowest[0], double(p.x) - radius);
         lowest[1] = std::min(lowest[1], double(p.y) - radius);
         lowest[2] = std::min(lowest[2], double(p.z) - radius);
@@ -255,18 +257,7 @@ void SurfaceField::countCompany(int b, const SurfaceInput& input, int worker) {
     for (int k = all.count; k < all.count + kPad; ++k)
         sorted.x[k] = sorted.y[k] = sorted.z[k] = sorted.inverse[k] = sorted.amplitude[k] = 0;
 
-    auto sumOver = [&](int begin, int end, float x, float y, float z) {
-        float lanes[8] = {};
-        for (int k = begin; k < end; k += 8)
-            for (int l = 0; l < 8; ++l) {
-                float dx = sorted.x[k + l] - x, dy = sorted.y[k + l] - y, dz = sorted.z[k + l] - z;
-                float t = std::max(0.0f, 1 - (dx * dx + dy * dy + dz * dz) * sorted.inverse[k + l]);
-                float w = sorted.amplitude[k + l] * t * t * t;
-                lanes[l] += k + l < end ? w : 0.0f;
-            }
-        return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
-    };
-
+    FillArrays arrays{sorted.x, sorted.y, sorted.z, sorted.inverse, sorted.amplitude};
     double perBlock = 1 / (cell_ * kSide);
     for (int k = 0; k < all.count; ++k) {
         int i = members_[block.begin + k];
@@ -275,15 +266,15 @@ void SurfaceField::countCompany(int b, const SurfaceInput& input, int worker) {
             floorToInt(p.z * perBlock) != block.z)
             continue;
         int x = bin(all.x[k]), y = bin(all.y[k]), z = bin(all.z[k]);
-        float fill = 0;
-        for (int row = 0; row < 9 && fill < kFullCompany; ++row) {
-            constexpr int kNearFirst[9] = {4, 1, 3, 5, 7, 0, 2, 6, 8};
-            int rowY = y + kNearFirst[row] % 3 - 1, rowZ = z + kNearFirst[row] / 3 - 1;
+        int begins[9], ends[9], runs = 0;
+        constexpr int kNearFirst[9] = {4, 1, 3, 5, 7, 0, 2, 6, 8};
+        for (int row : kNearFirst) {
+            int rowY = y + row % 3 - 1, rowZ = z + row / 3 - 1;
             if (rowY < 0 || rowY >= bins || rowZ < 0 || rowZ >= bins) continue;
             const int* start = starts + (rowZ * bins + rowY) * bins;
-            fill +=
-                sumOver(start[std::max(x - 1, 0)], start[std::min(x + 1, bins - 1) + 1], all.x[k], all.y[k], all.z[k]);
+            begins[runs] = start[std::max(x - 1, 0)], ends[runs++] = start[std::min(x + 1, bins - 1) + 1];
         }
+        float fill = sumRuns(arrays, begins, ends, runs, all.x[k], all.y[k], all.z[k], kFullCompany);
         reach_[i].company = std::min(fill, kFullCompany);
     }
 }
@@ -297,29 +288,13 @@ void SurfaceField::splat(int b, const SurfaceInput& input) {
     for (int k = block.begin; k < block.end; ++k) {
         int i = members_[k];
         const Vec4& p = input.positions[i];
-        float radius = float(reach_[i].radius * perCell), squared = radius * radius, inverse = 1 / squared;
-        float x = float(p.x * perCell - first[0]), y = float(p.y * perCell - first[1]),
-              z = float(p.z * perCell - first[2]);
-        float amplitude = reach_[i].amplitude, temperature = input.temperatures[i], liquid = input.liquidFractions[i],
-              company = reach_[i].company;
-        float alongX[kSide];
-        for (int l = 0; l < kSide; ++l) alongX[l] = 1 - (float(l) - x) * (float(l) - x) * inverse;
-        int zBegin = std::max(0, int(std::ceil(z - radius))), zEnd = std::min(kSide - 1, int(std::floor(z + radius)));
-        for (int nz = zBegin; nz <= zEnd; ++nz) {
-            float dz = float(nz) - z, half = std::sqrt(std::max(0.0f, squared - dz * dz));
-            int yBegin = std::max(0, int(std::ceil(y - half))), yEnd = std::min(kSide - 1, int(std::floor(y + half)));
-            for (int ny = yBegin; ny <= yEnd; ++ny) {
-                float dy = float(ny) - y, across = (dy * dy + dz * dz) * inverse;
-                float* row = values + (nz * kSide + ny) * kSide;
-                for (int l = 0; l < kSide; ++l) {
-                    float t = std::max(0.0f, alongX[l] - across), w = amplitude * t * t * t;
-                    row[kFill * kNodes + l] += w;
-                    row[kTemperature * kNodes + l] += w * temperature;
-                    row[kLiquid * kNodes + l] += w * liquid;
-                    row[kCompany * kNodes + l] += w * company;
-                }
-            }
-        }
+        splatSource({float(p.x * perCell - first[0]),
+                     float(p.y * perCell - first[1]),
+                     float(p.z * perCell - first[2]),
+                     float(reach_[i].radius * perCell),
+                     reach_[i].amplitude,
+                     {input.temperatures[i], input.liquidFractions[i], reach_[i].company}},
+                    values);
     }
 }
 

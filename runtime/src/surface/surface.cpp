@@ -23,14 +23,16 @@ constexpr int kWideStep[3] = {1, kWide, kWide* kWide};
 // One channel on the nodes of all the block's cells.
 void readWide(const SurfaceField& field, int block, SurfaceField::Channel channel, float* out) {
     const auto& upper = field.block(block).upper;
-    for (int n = 0; n < 8; ++n) {
-        const float* from = upper[n] < 0 ? nullptr : field.values(upper[n], channel);
-        int x0 = n & 1 ? kSide : 0, y0 = n & 2 ? kSide : 0, z0 = n & 4 ? kSide : 0;
-        for (int z = z0; z < (n & 4 ? kWide : kSide); ++z)
-            for (int y = y0; y < (n & 2 ? kWide : kSide); ++y)
-                for (int x = x0; x < (n & 1 ? kWide : kSide); ++x)
-                    out[wideAt(x, y, z)] = from ? from[nodeAt(x - x0, y - y0, z - z0)] : 0;
-    }
+    for (int z = 0; z < kWide; ++z)
+        for (int y = 0; y < kWide; ++y) {
+            int yz = (y == kSide) << 1 | (z == kSide) << 2, from = nodeAt(0, y % kSide, z % kSide);
+            float* row = out + wideAt(0, y, z);
+            if (upper[yz] < 0)
+                std::fill(row, row + kSide, 0.0f);
+            else
+                std::copy_n(field.values(upper[yz], channel) + from, kSide, row);
+            row[kSide] = upper[yz + 1] < 0 ? 0 : field.values(upper[yz + 1], channel)[from];
+        }
 }
 
 bool inside(float fill) { return fill >= SurfaceField::kIso; }
