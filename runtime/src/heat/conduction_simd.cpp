@@ -26,7 +26,7 @@ void conductionGroups(const ConductionPass& a, int begin, int end) {
                 const Rows other = gatherRows(a.state, entry);
                 // No fused operation before the difference: both sides of a pair must round alike.
                 const F32 harmonic = hn::Div(hn::Mul(k4, other.y), hn::Add(hn::Add(own.y, other.y), tiny));
-                const F32 w = hn::Mul(load(c), harmonic);
+                const F32 w = hn::Mul(load(c), hn::Mul(harmonic, hn::Add(own.z, other.z)));
                 flow = hn::Add(flow, hn::Mul(w, hn::Sub(own.x, other.x)));
                 weight = hn::Sub(weight, w);
             }

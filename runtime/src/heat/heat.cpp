@@ -119,7 +119,7 @@ struct Heat::Impl {
     Array<uint8_t> priority; // per exposed: kNoRay, 1 + age, kUnknown
     Array<float> power;      // per row, W absorbed
 
-    Array<Vec4> state;                          // x temperature over ambient, y conductivity
+    Array<Vec4> state;                          // see ConductionPass
     Array<float> flow, weight;                  // of the pair pass
     Array<float> direction, residual, solution; // of the conjugate gradients
     Array<Booking> booking;                     // per block
@@ -310,6 +310,7 @@ void Heat::Impl::fillState(const HeatFrame& f) {
             // Over ambient, so that what matters keeps its digits in float.
             state[k].x = static_cast<float>(m.kelvin(p.enthalpy[k]) - static_cast<double>(f.ambient));
             state[k].y = m.conductivity(m.liquidFraction(p.enthalpy[k]));
+            state[k].z = 0.5f / std::clamp(f.neighbors.volumeFraction[k], 0.4f, 1.25f);
         }
     });
 }
@@ -442,7 +443,9 @@ void Heat::Impl::implicitStep(const HeatFrame& f) {
     const double rooms = sumRows(f, [&](size_t k, Sums& s) {
                              if (active(k)) s.a += room(k);
                          }).a;
-    const double back = rooms > 0 ? made / std::abs(rooms) : 0;
+    // All alike to the last digit of float: nothing to conduct.
+    if (!(rooms >= std::abs(made)) || rooms == 0) return;
+    const double back = made / rooms;
     f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
         for (int i = begin; i < end; ++i) {
             const size_t k = static_cast<size_t>(i);
