@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -84,6 +87,27 @@ std::string oneLine(std::string text) {
     if (text.size() > 160) text = text.substr(0, 157) + "...";
     return text;
 }
+// The importer takes memory for as many elements as a PLY header promises, before it looks whether they are there
+// (minutes and gigabytes for a file of 80 bytes). An element takes at least a byte.
+void checkPlyHeader(const std::string& path, uintmax_t bytes) {
+    std::ifstream in(path, std::ios::binary);
+    std::string line;
+    for (int lines = 0; lines < 1000 && std::getline(in, line); ++lines) {
+        std::istringstream words(line);
+        std::string word, name, count;
+        words >> word >> name >> count;
+        if (word == "end_header") return;
+        if (word != "element") continue;
+        uint64_t value = 0;
+        const auto result = std::from_chars(count.data(), count.data() + count.size(), value);
+        if (result.ec != std::errc() || result.ptr != count.data() + count.size())
+            throw std::runtime_error("cannot be read: element count '" + oneLine(count) + "'");
+        if (value > bytes)
+            throw std::runtime_error("cannot be read: ends before its " + std::to_string(value) + " " + oneLine(name) +
+                                     " elements");
+    }
+    throw std::runtime_error("cannot be read: no end of its header");
+}
 } // namespace
 
 TriMesh importMesh(const std::string& path) {
@@ -103,6 +127,8 @@ TriMesh importMesh(const std::string& path) {
     constexpr const char* kKnown[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
     if (std::none_of(std::begin(kKnown), std::end(kKnown), [&](const char* k) { return extension == k; }))
         throw std::runtime_error("unknown mesh format '" + oneLine(extension) + "' (known: obj, ply, stl, gltf, glb)");
+
+    if (extension == ".ply") checkPlyHeader(path, bytes);
 
     Assimp::Importer importer;
     // Only shapes matter: what else a file holds is dropped before it is processed.

@@ -104,7 +104,7 @@ Progress::~Progress() {
 
 void Progress::frame(int done, const Report& report) {
     if (quiet_ || (done % (terminal_ ? 6 : 60) != 0 && done != frames_)) return;
-    std::fprintf(stderr, "%s%s: %.1f of %.1f s, %.1f %% melted, p50 %.2f ms, %zu frames over %s", terminal_ ? "\r" : "",
+    std::fprintf(stderr, "%s%s: %.1f of %.1f s, %.1f %% melted, p50 %.2f ms, %zu frames over%s", terminal_ ? "\r" : "",
                  name_.c_str(), done * kFrameSeconds, frames_ * kFrameSeconds,
                  100.0 * double(report.counters().meltedFraction), report.percentile(0.5), report.framesOver(),
                  terminal_ ? "\033[K" : "\n");
