@@ -19,6 +19,6 @@ void main() {
         change = max(change, max(max(d.r, d.g), max(d.b, d.a)));
     }
     // On the floor depth differs within a pixel of itself; its edges show in the colours.
-    bool edge = change > 0.06 || (spread > 0.02 * uSceneRadius && z < 0.4 * uNearFar.y && kind != KIND_FLOOR);
+    bool edge = change > 0.06 || (spread > 0.012 * uSceneRadius && z < 0.4 * uNearFar.y && kind != KIND_FLOOR);
     oColor = vec4((kind + (edge ? 4.0 : 0.0)) / 255.0);
 }

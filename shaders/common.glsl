@@ -59,7 +59,7 @@ vec2 vogel(int i, int n, float phase) {
 
 // What light keeps of each colour on its way through wax: red goes deepest.
 vec3 throughWax(float transmission, vec3 albedo) {
-    return pow(vec3(max(transmission, 1e-4)), vec3(0.75, 1.15, 1.9)) * sqrt(albedo);
+    return pow(vec3(max(transmission, 1e-4)), vec3(0.78, 1.06, 1.75)) * sqrt(albedo);
 }
 
 // A dim room with a large softbox at the key light and a strip behind: what shiny things reflect.

@@ -38,9 +38,9 @@ void main() {
         float dark = layer(q, -0.08, 0.40, 0.34);
         float base = layer(q, -0.05, 0.36, 0.86);
         float rise = smoothstep(0.02, 0.42, q.y);
-        light += vec3(1.0, 0.30, 0.045) * mantle * mantle * 0.9 * mix(0.25, 1.0, rise);
-        light += vec3(1.0, 0.60, 0.17) * pow(body, 1.4) * 2.6 * rise;
-        light += vec3(1.0, 0.83, 0.46) * pow(core, 1.4) * 4.2 * rise;
+        light += vec3(1.0, 0.27, 0.035) * mantle * mantle * 0.8 * mix(0.2, 1.0, rise);
+        light += vec3(1.0, 0.52, 0.12) * pow(body, 1.6) * 2.0 * rise;
+        light += vec3(1.0, 0.80, 0.42) * pow(core, 1.6) * 3.2 * smoothstep(0.12, 0.5, q.y);
         light *= 1.0 - 0.6 * dark * (1.0 - smoothstep(0.2, 0.45, q.y));
         light += vec3(0.10, 0.22, 0.9) * base * (1.0 - smoothstep(0.0, 0.3, q.y)) * 0.55;
         light *= uTint / vec3(1.0, 0.58, 0.22);

@@ -76,7 +76,7 @@ vec3 flames(vec3 p, vec3 n, float translucency, float phase) {
             float r = sqrt(d2);
             float bias = 0.012 * r + 0.006 * uSceneRadius;
             vec3 at = flameCoordinates(i, p);
-            float width = clamp(0.5 * uFlamePosition[i].w / r, 0.012, 0.07);
+            float width = clamp(0.3 * uFlamePosition[i].w / r, 0.012, 0.07);
             float way = uScatter * max(translucency, 0.02) * 1.35;
             lit = 0.0;
             for (int k = 0; k < kFlameTaps; ++k) {

@@ -49,7 +49,7 @@ vec3 flameHighlights(vec3 p, vec3 n, vec3 v, float roughness) {
         vec3 toLight = uFlamePosition[i].xyz - p;
         float inverse = inversesqrt(dot(toLight, toLight) + 1e-12);
         // A flame has a size: its highlight is as wide as it looks from here.
-        float wide = min(roughness + 0.2 * uFlamePosition[i].w * inverse, 1.0);
+        float wide = min(roughness + 0.1 * uFlamePosition[i].w * inverse, 1.0);
         float soft = 1.0 / (inverse * inverse) + uFlamePosition[i].w * uFlamePosition[i].w;
         sum += uFlameColor[i] / soft * ggx(n, v, toLight * inverse, wide);
     }
@@ -58,6 +58,8 @@ vec3 flameHighlights(vec3 p, vec3 n, vec3 v, float roughness) {
 
 vec3 thing(vec3 p, vec3 n, SlowLight slow, vec3 albedo, float translucency, float roughness) {
     vec3 v = normalize(uEye - p);
+    // At outlines the normal of a vertex may turn away from the eye: bend it back, or single pixels mirror the room.
+    n = normalize(n + v * max(0.05 - dot(n, v), 0.0));
     // Wrapped by colour: red travels furthest under the surface, which warms the edge of the shade.
     vec3 wrap = translucency * vec3(0.46, 0.30, 0.18);
     vec3 facing = clamp((vec3(dot(n, uKeyDirection)) + wrap) / (1.0 + wrap), 0.0, 1.0);
@@ -70,12 +72,13 @@ vec3 thing(vec3 p, vec3 n, SlowLight slow, vec3 albedo, float translucency, floa
     vec3 sky = mix(uGround, mix(uHorizon, uZenith, saturate(n.y)), saturate(n.y * 0.5 + 0.5));
     vec3 back = normalize(vec3(-uKeyDirection.x, 0.2, -uKeyDirection.z));
     float behind = saturate(0.5 + 0.5 * dot(n, back));
-    vec3 rim = uKeyColor * 0.26 * behind * behind * behind;
+    vec3 rim = uKeyColor * 0.15 * behind * behind * behind;
     vec3 color = albedo * ((sky + rim) * open + (key + through + slow.flame) * (0.3 + 0.7 * open));
 
     float nv = saturate(dot(n, v)), grazing = 1.0 - nv;
     float grazing2 = grazing * grazing;
-    float fresnel = 0.04 + 0.96 * grazing2 * grazing2 * grazing * (1.0 - 0.8 * roughness);
+    float smoothness = max(1.0 - roughness, 0.2);
+    float fresnel = 0.04 + (smoothness * smoothness - 0.04) * grazing2 * grazing2 * grazing;
     float openSpecular = saturate((nv + slow.occlusion) * (nv + slow.occlusion) - 1.0 + slow.occlusion);
     vec3 mirror = studio(reflect(-v, n), roughness, mix(0.15, 1.0, slow.keyShadow)) * fresnel * openSpecular;
     vec3 sparkle = 0.04 * flameHighlights(p, n, v, roughness) * openSpecular;

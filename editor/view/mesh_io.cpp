@@ -6,9 +6,10 @@
 #include "view/color_map.h"
 
 #include <bit>
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
+#include <initializer_list>
 #include <memory>
 
 namespace thaw::view {
@@ -80,26 +81,35 @@ bool writeObj(const std::string& path, const thawSurfaceView& surface, std::span
               std::string& error) {
     if (!usable(surface, error)) return false;
     std::string out = "# surface of a thaw world, metres\no thaw_surface\n";
-    char line[160];
+    // to_chars and not printf: a host with a locale of commas would write "1,5".
+    char digits[32];
+    const auto add = [&](const char* head, std::initializer_list<float> values) {
+        out += head;
+        for (const float v : values) {
+            out += ' ';
+            out.append(digits, std::to_chars(digits, digits + sizeof digits, v).ptr);
+        }
+    };
     const auto vertices = static_cast<size_t>(surface.vertexCount),
                triangles = static_cast<size_t>(surface.triangleCount);
     for (size_t i = 0; i < vertices; ++i) {
         const float* p = surface.positions + i * 3;
         const Vec3 c = colorOf(surface, colors, i);
-        std::snprintf(line, sizeof line, "v %.9g %.9g %.9g %.4f %.4f %.4f\n", p[0], p[1], p[2], encodeSrgb(c.x) / 255.0,
-                      encodeSrgb(c.y) / 255.0, encodeSrgb(c.z) / 255.0);
-        out += line;
+        add("v", {p[0], p[1], p[2], encodeSrgb(c.x) / 255.0f, encodeSrgb(c.y) / 255.0f, encodeSrgb(c.z) / 255.0f});
+        out += '\n';
     }
     for (size_t i = 0; i < vertices; ++i) {
         const float* n = surface.normals + i * 3;
-        std::snprintf(line, sizeof line, "vn %.5f %.5f %.5f\n", n[0], n[1], n[2]);
-        out += line;
+        add("vn", {n[0], n[1], n[2]});
+        out += '\n';
     }
     for (size_t t = 0; t < triangles; ++t) {
-        const uint32_t a = surface.indices[t * 3] + 1, b = surface.indices[t * 3 + 1] + 1,
-                       c = surface.indices[t * 3 + 2] + 1;
-        std::snprintf(line, sizeof line, "f %u//%u %u//%u %u//%u\n", a, a, b, b, c, c);
-        out += line;
+        out += 'f';
+        for (size_t k = 0; k < 3; ++k) {
+            const std::string index = std::to_string(surface.indices[t * 3 + k] + 1);
+            out += ' ' + index + "//" + index;
+        }
+        out += '\n';
     }
     return save(path, out, error);
 }

@@ -509,10 +509,10 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         const float flicker = glow.shape == GlowShape::flame
                                   ? 1 + 0.03f * std::sin(9.7f * scene.time) + 0.02f * std::sin(23 * scene.time)
                                   : 1;
-        const float soft = std::max(glow.radius, 0.13f * radius);
+        const float soft = std::max(glow.radius, 0.22f * radius);
         const float values4[4] = {glow.position.x, glow.position.y, glow.position.z, soft};
         std::copy(values4, values4 + 4, flamePositions.begin() + static_cast<std::ptrdiff_t>(i * 4));
-        const Vec3 color = glow.color * (strength * flicker * 4.2f);
+        const Vec3 color = glow.color * (strength * flicker * 3.6f);
         std::memcpy(&flameColors[i * 3], &color, 12);
         if (i < kShadowedFlames) {
             flameAxes[i] = normalize(center - glow.position, {0, -1, 0});

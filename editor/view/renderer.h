@@ -60,9 +60,9 @@ struct Glow {
 
 /// The main light, from one side and at infinity.
 struct KeyLight {
-    Vec3 direction{-0.62f, 0.66f, 0.36f}; // towards the light, any length but 0
+    Vec3 direction{-0.80f, 0.58f, 0.08f}; // towards the light, any length but 0
     Vec3 color{1.0f, 0.95f, 0.88f};       // linear RGB
-    float intensity = 1.0f;
+    float intensity = 1.15f;
     float angle = 0.16f; // rad, radius of the light as seen from the scene: how soft shadows are; range 0..0.5
 };
 

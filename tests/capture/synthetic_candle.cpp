@@ -48,29 +48,34 @@ float drips(float angle, float y) {
 Vec3 point(float angle, float s) {
     const float c = std::cos(angle), n = std::sin(angle);
     float r = 0, y = 0;
+    // The rim stands lower where melt ran over.
+    const float over = std::min(1.0f, drips(angle, kHeight - 0.003f) / 0.0012f);
+    const float rim = kHeight - 0.0012f * over + 0.0007f * std::sin(2 * angle + 1);
+    const float top = rim - 0.002f, thick = 0.0019f;
+    const auto wall = [&](float height) {
+        return kRadius * (1 + 0.012f * std::sin(2 * angle + 40 * height)) + drips(angle, height);
+    };
     if (s < 0.10f) {
         const float t = s / 0.10f;
         r = t * kRadius * (1.24f + 0.10f * std::sin(3 * angle + 0.5f) + 0.06f * std::sin(5 * angle));
     } else if (s < 0.74f) {
         const float t = (s - 0.10f) / 0.64f;
-        y = t * (kHeight - 0.002f);
+        y = t * top;
         const float puddle = std::pow(std::max(0.0f, 1 - y / 0.007f), 2.2f);
         const float lobes = 0.24f + 0.10f * std::sin(3 * angle + 0.5f) + 0.06f * std::sin(5 * angle);
-        r = kRadius * (1 + 0.012f * std::sin(2 * angle + 40 * y) + puddle * lobes) + drips(angle, y);
+        r = wall(y) + kRadius * puddle * lobes;
     } else {
-        // Rim: a half circle, lower where melt ran over; then the pool with its meniscus.
+        // Rim: a half circle; then the pool with its meniscus.
         const float t = (s - 0.74f) / 0.26f;
-        const float over = std::min(1.0f, drips(angle, kHeight - 0.002f) / 0.0012f);
-        const float rim = kHeight - 0.0012f * over + 0.0007f * std::sin(2 * angle + 1);
-        const float thick = 0.0019f;
         if (t < 0.3f) {
             const float b = kPi * t / 0.3f;
-            r = kRadius - thick + thick * std::cos(b) + drips(angle, kHeight - 0.002f) * 0.5f * (1 + std::cos(b));
-            y = rim - 0.002f + thick * std::sin(b);
+            const float inner = kRadius - 2 * thick, outer = wall(top);
+            r = inner + (outer - inner) * 0.5f * (1 + std::cos(b));
+            y = top + thick * std::sin(b);
         } else {
             const float u = (t - 0.3f) / 0.7f;
             r = (kRadius - 2 * thick) * (1 - u);
-            y = rim - 0.002f - kPoolDepth * smooth(0, 0.22f, u) + 0.0012f * over * smooth(0, 0.3f, u);
+            y = top - kPoolDepth * smooth(0, 0.22f, u) + 0.0012f * over * smooth(0, 0.3f, u);
             y += 0.0012f * smooth(0.90f, 1, u); // melt climbs the wick
         }
     }
@@ -86,9 +91,9 @@ SyntheticCandle::SyntheticCandle(int around, int along) {
             const Vec3 p = point(angle, s);
             positions.insert(positions.end(), {p.x, p.y, p.z});
             const float toFlame = std::sqrt(p.x * p.x + p.z * p.z + std::pow(kHeight + 0.012f - p.y, 2.0f));
-            const float kelvin = 296 + 66 * std::exp(-std::max(0.0f, toFlame - 0.014f) / 0.014f);
+            const float kelvin = 296 + 74 * std::exp(-std::max(0.0f, toFlame - 0.014f) / 0.016f);
             temperatures.push_back(kelvin);
-            liquidFractions.push_back(smooth(318, 336, kelvin));
+            liquidFractions.push_back(smooth(322, 336, kelvin));
             materials.push_back(0);
         }
     for (int j = 0; j < along; ++j)
@@ -122,7 +127,7 @@ view::Scene SyntheticCandle::scene() const {
     view::MeshInstance wick;
     wick.mesh = std::make_shared<view::TriangleMesh>(view::makeCylinder(0.0009f, 0.011f));
     wick.position = {0, kHeight - 0.0065f, 0};
-    wick.color = {0.018f, 0.014f, 0.012f};
+    wick.color = {0.008f, 0.006f, 0.005f};
     wick.roughness = 0.9f;
     scene.meshes.push_back(wick);
     view::Glow flame;

@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+
+// Properties of pictures that hold on every renderer, and one golden picture for the renderer it was made with.
+
+#include "pictures.h"
+#include "view/color_map.h"
+#include "view_fixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+using namespace thaw;
+using namespace thaw::test;
+using namespace thaw::view;
+using view::Image;
+using view::Rgba;
+
+TEST_CASE_FIXTURE(ViewFixture, "a shaded candle stands out, covers its share and throws a shadow") {
+    const Image image = draw(candle.scene(), smallView());
+    // Wax is much brighter than backdrop and table here; the silhouette follows from the camera.
+    int bright = 0;
+    int left = image.width, right = -1;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const Rgba p = image.at(x, y);
+            if (p.r > 140) {
+                ++bright;
+                left = std::min(left, x), right = std::max(right, x);
+            }
+        }
+    const double coverage = double(bright) / (image.width * image.height);
+    CHECK(coverage > 0.05);
+    CHECK(coverage < 0.13);
+    CHECK(left > image.width / 4);
+    CHECK(right < image.width * 3 / 4);
+    // The key light comes from the left: the table is darker on the right, close to the foot.
+    const Mean lit = meanOf(image, 0.30, 0.86, 0.36, 0.90), shadow = meanOf(image, 0.62, 0.86, 0.68, 0.90);
+    CHECK(shadow.luminance() < 0.7 * lit.luminance());
+    // The flame is warm and nearly white in its middle.
+    const Mean flame = meanOf(image, 0.494, 0.22, 0.506, 0.26);
+    CHECK(flame.r > 220);
+    CHECK(flame.r > flame.b);
+}
+
+TEST_CASE_FIXTURE(ViewFixture, "a ball shades the table where it touches it") {
+    view::Scene scene;
+    view::MeshInstance ball;
+    ball.mesh = std::make_shared<view::TriangleMesh>(view::makeSphere(0.03f));
+    ball.position = {0, 0.03f, 0};
+    ball.color = {0.5f, 0.5f, 0.5f};
+    scene.meshes.push_back(ball);
+    // Light from behind the eye, so that its shadow falls away from us and only the contact is left in front.
+    scene.key.direction = {0, 0.7f, 1};
+    view::View v = smallView();
+    v.camera = {{0, 0.06f, 0.30f}, {0, 0.03f, 0}, {0, 1, 0}, 0.4f};
+    const Image image = draw(scene, v);
+    // The ball touches the table at 0, 0, 0. Down the middle column from there the table gets lighter, well past any
+    // edge.
+    const double contact = meanOf(image, 0.49, 0.755, 0.51, 0.765).luminance();
+    const double open = meanOf(image, 0.49, 0.96, 0.51, 0.99).luminance();
+    CHECK(contact < 0.8 * open);
+    // The lit side of the ball faces us, the one behind it is in its shadow.
+    const Mean lit = meanOf(image, 0.48, 0.40, 0.52, 0.46);
+    scene.key.direction = {0, 0.7f, -1};
+    const Image behind = draw(scene, v);
+    CHECK(meanOf(behind, 0.48, 0.40, 0.52, 0.46).luminance() < 0.75 * lit.luminance());
+    const double shadow = meanOf(behind, 0.49, 0.86, 0.51, 0.90).luminance();
+    CHECK(shadow < 0.6 * meanOf(image, 0.49, 0.86, 0.51, 0.90).luminance());
+}
+
+TEST_CASE_FIXTURE(ViewFixture, "the flame lights the wax from inside, most at the top") {
+    view::Scene burning = candle.scene(), out = burning;
+    out.glows.clear();
+    const Image a = draw(burning, smallView()), b = draw(out, smallView());
+    const Mean topLit = meanOf(a, 0.51, 0.37, 0.55, 0.41), topDark = meanOf(b, 0.51, 0.37, 0.55, 0.41);
+    const Mean lowLit = meanOf(a, 0.51, 0.75, 0.55, 0.80), lowDark = meanOf(b, 0.51, 0.75, 0.55, 0.80);
+    CHECK(topLit.luminance() > topDark.luminance() + 15);
+    CHECK(topLit.luminance() - topDark.luminance() > 2 * (lowLit.luminance() - lowDark.luminance()));
+    // What comes through is warmer than the key light's wax.
+    CHECK((topLit.r - topDark.r) > (topLit.b - topDark.b));
+    // An opaque material keeps it out.
+    burning.materials[0].translucency = 0;
+    const Mean opaque = meanOf(draw(burning, smallView()), 0.51, 0.37, 0.55, 0.41);
+    CHECK(opaque.luminance() < topLit.luminance() - 10);
+}
+
+TEST_CASE_FIXTURE(ViewFixture, "temperature view: hot is redder, the scale is there and stays put") {
+    view::View v = smallView(view::ViewMode::temperature);
+    v.temperatureLow = 295, v.temperatureHigh = 345;
+    const Image image = draw(candle.scene(), v);
+    const Mean hot = meanOf(image, 0.49, 0.345, 0.51, 0.36), cold = meanOf(image, 0.47, 0.72, 0.53, 0.80);
+    CHECK(hot.r > cold.r + 60);
+    CHECK(hot.r / (hot.b + 1) > 2 * cold.r / (cold.b + 1));
+    CHECK(cold.b > cold.r + 40);
+    // Without the scale only the corner differs; in it are the ends of the colour ramp.
+    v.legend = false;
+    const Image plain = draw(candle.scene(), v);
+    int changedOutside = 0;
+    bool blueEnd = false, hotEnd = false;
+    const Vec3 ends[2] = {view::heatColor(0.02f), view::heatColor(0.98f)};
+    const auto close = [](Rgba p, thawVec3 c) {
+        return std::abs(p.r - view::encodeSrgb(c.x)) < 12 && std::abs(p.g - view::encodeSrgb(c.y)) < 12 &&
+               std::abs(p.b - view::encodeSrgb(c.z)) < 12;
+    };
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const bool corner = x > image.width * 0.7 && y < image.height * 0.85;
+            if (!corner && !(image.at(x, y) == plain.at(x, y))) ++changedOutside;
+            if (corner && close(image.at(x, y), ends[0])) blueEnd = true;
+            if (corner && close(image.at(x, y), ends[1])) hotEnd = true;
+        }
+    CHECK(changedOutside == 0);
+    CHECK(blueEnd);
+    CHECK(hotEnd);
+    CHECK(meanOf(image, 0.9, 0.05, 0.97, 0.3).luminance() != meanOf(plain, 0.9, 0.05, 0.97, 0.3).luminance());
+}
+
+TEST_CASE_FIXTURE(ViewFixture, "phase view: solid below, liquid in the pool") {
+    view::View v = smallView(view::ViewMode::phase);
+    v.camera.eye = v.camera.target + Vec3{0.08f, 0.22f, 0.16f};
+    const Image image = draw(candle.scene(), v);
+    int solid = 0, liquid = 0, mushy = 0, lowestLiquid = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width * 7 / 10; ++x) {
+            const Rgba p = image.at(x, y);
+            if (p.b > p.r + 30) ++solid;
+            if (p.r > p.g + 70 && p.r > p.b + 60) ++liquid, lowestLiquid = std::max(lowestLiquid, y);
+            if (p.r > p.b + 60 && p.g > p.b + 40) ++mushy;
+        }
+    CHECK(solid > 2000);
+    CHECK(liquid > 100);
+    CHECK(mushy > 100);
+    CHECK(lowestLiquid < image.height / 2);
+}
+
+TEST_CASE_FIXTURE(ViewFixture, "particles are balls in the colours of their values") {
+    const std::vector<float> spheres{-0.03f, 0.03f, 0, 0.02f, 0.03f, 0.03f, 0, 0.02f};
+    const std::vector<float> velocities{0, 0, 0, 1, 0, 2.0f, 0, 1}, kelvin{300, 340}, liquid{1, 0};
+    thawParticleView particles{};
+    particles.count = 2;
+    particles.positions = spheres.data();
+    particles.velocities = velocities.data();
+    particles.temperatures = kelvin.data();
+    particles.liquidFractions = liquid.data();
+    view::Scene scene;
+    scene.particles = &particles;
+    view::View v = smallView();
+    v.legend = false;
+    v.camera = {{0, 0.03f, 0.3f}, {0, 0.03f, 0}, {0, 1, 0}, 0.4f};
+    const auto redness = [&](view::ParticleColor color, bool rightOne) {
+        scene.particleColor = color;
+        const double x = rightOne ? 0.64 : 0.36;
+        const Mean m = meanOf(draw(scene, v), x - 0.02, 0.46, x + 0.02, 0.54);
+        return m.r / (m.b + 1);
+    };
+    CHECK(redness(view::ParticleColor::temperature, true) > 3 * redness(view::ParticleColor::temperature, false));
+    CHECK(redness(view::ParticleColor::speed, true) > 3 * redness(view::ParticleColor::speed, false));
+    CHECK(redness(view::ParticleColor::liquidFraction, false) > 3 * redness(view::ParticleColor::liquidFraction, true));
+    // A ball of radius 0.02 at 0.3 m in a picture 0.1216 m high there covers a known area.
+    scene.floor.visible = false;
+    scene.particleColor = view::ParticleColor::temperature;
+    const Image image = draw(scene, v);
+    int covered = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = image.width / 2; x < image.width; ++x)
+            if (image.at(x, y).r > image.at(x, y).b + 60) ++covered;
+    const double radiusPixels = 0.02 / (2 * 0.3 * std::tan(0.2)) * image.height;
+    CHECK(covered == doctest::Approx(3.14159 * radiusPixels * radiusPixels).epsilon(0.12));
+}
+
+TEST_CASE_FIXTURE(ViewFixture, "the same scene gives the same bytes, whatever was drawn between") {
+    const Image first = draw(candle.scene(), smallView());
+    view::View other = smallView(view::ViewMode::temperature);
+    other.width = 200, other.height = 200;
+    draw(candle.scene(), other);
+    view::Scene empty;
+    draw(empty, smallView());
+    const Image again = draw(candle.scene(), smallView());
+    CHECK(first.pixels == again.pixels);
+    std::unique_ptr<view::Renderer> second = view::Renderer::create(error);
+    REQUIRE_MESSAGE(second, error);
+    const std::optional<Image> fresh = second->capture(candle.scene(), smallView(), error);
+    REQUIRE_MESSAGE(fresh, error);
+    CHECK(first.pixels == fresh->pixels);
+}
+
+TEST_CASE_FIXTURE(ViewFixture, "what cannot be drawn is refused with the reason") {
+    view::View v = smallView();
+    const auto refused = [&](const view::Scene& scene, const view::View& bad, const char* word) {
+        error.clear();
+        CHECK_FALSE(renderer->capture(scene, bad, error));
+        CHECK_MESSAGE(error.find(word) != std::string::npos, error);
+    };
+    v.width = 8;
+    refused(candle.scene(), v, "width");
+    v = smallView();
+    v.camera.target = v.camera.eye;
+    refused(candle.scene(), v, "eye");
+    v = smallView();
+    v.camera.up = v.camera.target - v.camera.eye;
+    refused(candle.scene(), v, "up");
+    view::Scene scene = candle.scene();
+    std::vector<uint32_t> wrong = candle.indices;
+    wrong[7] = static_cast<uint32_t>(candle.positions.size());
+    scene.surface.indices = wrong.data();
+    refused(scene, smallView(), "index");
+    scene = candle.scene();
+    scene.meshes.front().mesh = nullptr;
+    refused(scene, smallView(), "mesh");
+    // And it still draws.
+    CHECK(draw(candle.scene(), smallView()).width == 320);
+}
+
+// THAW_UPDATE_GOLDEN=1 writes the golden picture and the name of the renderer anew.
+TEST_CASE_FIXTURE(ViewFixture, "golden picture") {
+    const std::string folder = std::string(THAW_SOURCE_DIR) + "/tests/capture/golden/";
+    const std::string picturePath = folder + "candle.png", keyPath = folder + "candle.renderer.txt";
+    const Image image = draw(candle.scene(), smallView());
+    if (const char* update = std::getenv("THAW_UPDATE_GOLDEN"); update && *update == '1') {
+        REQUIRE_MESSAGE(view::writePng(picturePath, image, error), error);
+        std::ofstream(keyPath) << renderer->rendererString() << "\n";
+        MESSAGE("wrote " << picturePath);
+        return;
+    }
+    std::string key;
+    std::ifstream keyFile(keyPath);
+    REQUIRE(std::getline(keyFile, key));
+    if (key != renderer->rendererString()) {
+        MESSAGE("the golden picture is of \"" << key << "\", this is \"" << renderer->rendererString()
+                                              << "\": only properties were checked");
+        return;
+    }
+    const std::optional<Image> golden = view::readPng(picturePath, error);
+    REQUIRE_MESSAGE(golden, error);
+    const view::ImageDifference difference = view::compare(image, *golden, 6);
+    REQUIRE(difference.sameSize);
+    if (difference.shareOver > 0.002) {
+        CHECK(view::writePng(artefact("candle.actual.png"), image, error));
+        CHECK(view::writePng(artefact("candle.difference.png"), difference.picture, error));
+    }
+    CHECK_MESSAGE(difference.shareOver <= 0.002, "see " << artefact("candle.actual.png"));
+}
