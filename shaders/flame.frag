@@ -50,7 +50,7 @@ void main() {
     } else if (uShape == 1) {
         float r = length(vLocal) * 2.0;
         float inside = r < 1.0 ? sqrt(1.0 - r * r) : 0.0;
-        light = mix(uTint, vec3(1.0), 0.45 * inside) * 4.0 * smoothstep(0.0, 0.35, inside);
+        light = mix(uTint, vec3(1.0), 0.3 * inside) * 2.0 * smoothstep(0.0, 0.35, inside);
         float halo = saturate(1.0 - 0.5 * r);
         light += uTint * 0.35 * halo * halo;
     } else {

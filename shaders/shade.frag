@@ -99,7 +99,7 @@ vec3 table(vec3 p, SlowLight slow, vec3 albedo, vec3 behind) {
     vec4 image = textureLod(uMirror, vUv, 0.0);
     vec3 room = 0.8 * behind + 0.02 * uKeyColor * slow.keyShadow;
     color = mix(color, room, fresnel * (1.0 - image.a) * slow.occlusion);
-    color += image.rgb * (fresnel + 0.05 * uReflectivity);
+    color += image.rgb * (fresnel + 0.05 * uReflectivity) * slow.occlusion;
     return mix(color, behind, smoothstep(0.35, 1.0, away));
 }
 

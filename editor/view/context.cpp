@@ -76,9 +76,9 @@ std::unique_ptr<HeadlessContext> HeadlessContext::create(std::string& error) {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     Made made;
     std::string way, tried;
-    const auto attempt = [&](const std::string& name, EGLDisplay display) {
+    const auto attempt = [&](const std::string& name, EGLDisplay candidate) {
         std::string why;
-        if (open(display, made, why)) return way = name, true;
+        if (open(candidate, made, why)) return way = name, true;
         tried += (tried.empty() ? "" : "; ") + name + ": " + why;
         return false;
     };
