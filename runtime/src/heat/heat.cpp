@@ -177,8 +177,10 @@ View look(const HeatSource& source, Vec3 x, Vec4 normal, float spacing) {
     v.ray.raised = x + (kRaise * spacing) * (drop ? v.ray.direction : n);
     v.ray.skip = kSkip * spacing;
     const float cosine = drop ? kDropCosine : std::max(0.0f, dot(n, v.ray.direction));
-    const float d = std::max({v.ray.distance, source.radius, 1e-6f});
-    v.flux = source.power * cosine / (4 * static_cast<float>(kPi) * d * d);
+    // Nearer than its own size a particle would take more than the half of all power that its plane can catch.
+    const float d2 = std::max({v.ray.distance * v.ray.distance, source.radius * source.radius,
+                               normal.w * static_cast<float>(0.5 / kPi), 1e-12f});
+    v.flux = source.power * cosine / (4 * static_cast<float>(kPi) * d2);
     return v;
 }
 
@@ -492,10 +494,11 @@ void Heat::loss(const HeatFrame& f) {
             const double before = p.enthalpy[k];
             const double fed = m.absorbing ? before + m.power[k] * f.dt / mass : before;
             const Settled s = settle(material, fed, {f.ambient, f.convection, f.dt * area / mass});
+            const double after = std::min(s.enthalpy, material.enthalpy(static_cast<float>(kHottest)));
             const double lost = mass * s.lost;
-            sum.absorbed += mass * (s.enthalpy - before) + lost;
+            sum.absorbed += mass * (after - before) + lost;
             sum.emitted += s.share * lost, sum.convected += (1 - s.share) * lost;
-            p.enthalpy[k] = s.enthalpy;
+            p.enthalpy[k] = after;
         }
         m.booking[static_cast<size_t>(block)] = sum;
     });
