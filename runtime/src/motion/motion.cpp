@@ -20,10 +20,9 @@ struct Contact {
 // The nearest walls in reach, nearest first; of equals the one with the lower index.
 int findContacts(const WallFinder& walls, Vec3 p, float reach, Contact (&out)[Motion::kContacts]) {
     int n = 0;
-    walls.forNear([&](const Collider& c) {
-        Contact k{{}, 0, c.adhesive};
-        k.distance = c.distance(p, k.normal);
-        if (!(k.distance < reach)) return;
+    walls.forNear(p, [&](float distance, Vec3 normal, const Collider& c) {
+        if (!(distance < reach)) return;
+        const Contact k{normal, distance, c.adhesive};
         int at = n < Motion::kContacts ? n++ : n;
         if (at == Motion::kContacts && !(k.distance < out[--at].distance)) return;
         for (; at > 0 && k.distance < out[at - 1].distance; --at) out[at] = out[at - 1];
@@ -126,7 +125,7 @@ void Motion::begin(const MotionFrame& f) {
             Contact found[kContacts];
             const int n =
                 walls.empty() ? 0 : findContacts(walls, x, std::max(1.0f, kAdhesionReach / kSupport) * h, found);
-            contactCount_[i] = static_cast<uint8_t>(n);
+            contactCount_[i] = static_cast<uint8_t>(n), sums.b += n;
             for (int k = 0; k < n; ++k) {
                 const size_t c = i * kContacts + static_cast<size_t>(k);
                 contact_[c] = {found[k].normal.x, found[k].normal.y, found[k].normal.z, found[k].distance};
@@ -170,8 +169,9 @@ void Motion::begin(const MotionFrame& f) {
     });
 
     double total = 0;
+    leaning_ = p.moverCount < p.count;
     for (const BlockSums& s : sums_) {
-        total += s.a;
+        total += s.a, leaning_ |= s.b > 0;
         stats_.maxCompression = std::max(stats_.maxCompression, s.c);
         stats_.apparentViscosity = std::max(stats_.apparentViscosity, s.d);
     }

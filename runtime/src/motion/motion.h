@@ -66,6 +66,7 @@ private:
     };
 
     MotionStats stats_;
+    bool leaning_ = false; // something touches a wall or is held
     Array<Box> colliderBounds_;
     Array<Vec4> contact_;            // kContacts per mover: xyz outward normal, w distance in m; nearest first
     Array<uint8_t> contactAdhesive_; // per contact

@@ -13,21 +13,100 @@ namespace {
 
 // A particle that moves farther than this many spacings in a step is followed along its way.
 constexpr float kSweepFrom = 0.5f, kSweepStep = 0.5f;
-// How near to the centre of a fixed particle its way ends: a square of four leaves a hole of 0.71.
-constexpr float kFixedStandoff = 0.8f;
-constexpr int kSweepMost = 256;
+// How near to the centre of a fixed particle its way ends (a square of four leaves a hole of 0.71), from how far off
+// they make up a surface, and how often its way may be turned by them in a step.
+constexpr float kFixedStandoff = 0.8f, kFixedReach = 1.6f;
+constexpr int kSweepMost = 256, kBlockedMost = 4;
 // Last resort, far above what a melt does: m/s, and spacings in a step for worlds of other sizes.
 constexpr float kSpeedLimit = 30, kSpeedLimitSpacings = 100;
 
 void pushOut(const WallFinder& walls, float standoff, Vec3& x, Vec3& v) {
-    walls.forNear([&](const Collider& c) {
-        Vec3 normal;
-        const float d = c.distance(x, normal);
+    walls.forNear(x, [&](float d, Vec3 normal, const Collider&) {
         if (d >= standoff) return;
         x += (standoff - d) * normal;
         const float into = dot(normal, v);
         if (into < 0) v -= into * normal;
     });
+}
+
+struct Obstacles {
+    const WallFinder& walls;
+    const Neighbors& neighbors;
+    const Particles& particles;
+    const Box& held; // of all fixed particles
+
+    // Distance to the nearest wall, infinite where none is near.
+    float room(const Vec3& x) const {
+        float nearest = INFINITY;
+        walls.forNear(x, [&](float d, Vec3, const Collider&) { nearest = std::min(nearest, d); });
+        return nearest;
+    }
+    bool nearHeld(Vec3 x, float margin) const {
+        return x.x > held.lower.x - margin && x.x < held.upper.x + margin && x.y > held.lower.y - margin &&
+               x.y < held.upper.y + margin && x.z > held.lower.z - margin && x.z < held.upper.z + margin;
+    }
+    // Fixed particles around x: how near the nearest is, and the way out of them all. A single one's direction is no
+    // normal: between four of a layer it points sideways and the way down is free.
+    struct Surface {
+        float nearest = INFINITY;
+        Vec3 out;
+    };
+    Surface surface(Vec3 x, float radius) const {
+        Surface s;
+        neighbors.forCandidates(x, radius, [&](int j) {
+            if (!particles.fixed(j)) return;
+            const Vec3 d = x - particles.position[static_cast<size_t>(j)].xyz();
+            const float r = length(d);
+            if (!(r < radius)) return;
+            s.nearest = std::min(s.nearest, r);
+            if (r > 0) s.out += ((1 - r / radius) * (1 - r / radius) / r) * d;
+        });
+        return s;
+    }
+};
+
+// Moves x by v for `time`, sliding along walls and fixed particles that are in the way; v loses what went into them.
+void sweep(const Obstacles& around, float spacing, float time, Vec3& x, Vec3& v) {
+    const float wallStandoff = kWallStandoff * spacing, standoff = kFixedStandoff * spacing;
+    const float radius = kFixedReach * spacing;
+    float room = around.room(x) - wallStandoff, limit = kSweepStep * spacing;
+    Obstacles::Surface here;
+    bool known = false; // what `here` says is of x
+    for (int n = 0, blocked = 0; n < kSweepMost && time > 0; ++n) {
+        const float speed = length(v);
+        if (!(speed * time > 1e-3f * spacing)) return;
+        float stride = std::min(std::max(room, kSweepStep * spacing), speed * time);
+        const bool amongFixed = around.nearHeld(x, radius + stride);
+        if (amongFixed) stride = std::min(stride, limit);
+        const Vec3 to = x + (stride / speed) * v;
+        if (amongFixed) {
+            if (!known) here = around.surface(x, radius), known = true;
+            const Obstacles::Surface there = around.surface(to, radius);
+            if (there.nearest < standoff && there.nearest < here.nearest) {
+                // Up to it by halves, then on along it.
+                if (limit > 0.2f * kSweepStep * spacing) {
+                    limit *= 0.5f;
+                    continue;
+                }
+                const Vec3 out = normalizeOr(here.out + there.out, {});
+                const float into = dot(out, v);
+                if (into < 0) v -= into * out;
+                // A corner or a hollow: it stays.
+                if (++blocked == kBlockedMost || !(into < -1e-3f * speed)) {
+                    const Vec3 away = normalizeOr(there.out, {});
+                    v -= std::min(0.0f, dot(away, v)) * away;
+                    return;
+                }
+                limit = kSweepStep * spacing;
+                continue;
+            }
+            here = there;
+        }
+        known = amongFixed, limit = kSweepStep * spacing;
+        x = to, time -= stride / speed;
+        room = around.room(x) - wallStandoff;
+        if (room < 0) pushOut(around.walls, wallStandoff, x, v), room = 0, known = false;
+    }
 }
 
 } // namespace
@@ -64,49 +143,7 @@ void Motion::move(const MotionFrame& f) {
             if (!(dot(way, way) > kSweepFrom * kSweepFrom * spacing * spacing)) {
                 x += way;
             } else {
-                const float nearFixed = kFixedStandoff * spacing;
-                // Distance to the nearest wall less the standoff; while it lasts nothing is in the way.
-                const auto roomAt = [&](Vec3 at) {
-                    float room = INFINITY;
-                    walls.forNear([&](const Collider& c) {
-                        Vec3 normal;
-                        room = std::min(room, c.distance(at, normal));
-                    });
-                    return room - kWallStandoff * spacing;
-                };
-                float left = f.dt, room = roomAt(x);
-                for (int n = 0; n < kSweepMost && left > 0; ++n) {
-                    const float speed = length(v);
-                    if (!(speed * left > 1e-3f * spacing)) break;
-                    float stride = std::min(std::max(room, kSweepStep * spacing), speed * left);
-                    const float margin = nearFixed + stride;
-                    const bool amongFixed = x.x > held.lower.x - margin && x.x < held.upper.x + margin &&
-                                            x.y > held.lower.y - margin && x.y < held.upper.y + margin &&
-                                            x.z > held.lower.z - margin && x.z < held.upper.z + margin;
-                    if (amongFixed) stride = std::min(stride, kSweepStep * spacing);
-                    x += (stride / speed) * v, left -= stride / speed;
-                    room = roomAt(x);
-                    if (room < 0) {
-                        pushOut(walls, kWallStandoff * spacing, x, v);
-                        room = 0;
-                    }
-                    if (!amongFixed) continue;
-                    // The nearest of the fixed particles that it approaches; of equals the first in row order.
-                    float nearest = nearFixed * nearFixed;
-                    Vec3 from;
-                    f.neighbors.forCandidates(x, nearFixed, [&](int j) {
-                        if (!p.fixed(j)) return;
-                        const Vec3 d = x - p.position[static_cast<size_t>(j)].xyz();
-                        const float r2 = dot(d, d);
-                        if (r2 < nearest && dot(d, v) < 0) nearest = r2, from = d;
-                    });
-                    if (dot(from, from) > 0) {
-                        const float distance = std::sqrt(nearest);
-                        const Vec3 normal = (1 / distance) * from;
-                        x += (nearFixed - distance) * normal;
-                        v -= dot(normal, v) * normal;
-                    }
-                }
+                sweep(Obstacles{walls, f.neighbors, p, held}, spacing, f.dt, x, v);
                 p.velocity[i].setXyz(v);
             }
             target_[i] = {x.x, x.y, x.z, p.position[i].w};

@@ -132,12 +132,29 @@ void Motion::viscosity(const MotionFrame& f) {
 
     // A solve that met a number that is not finite must not spread it.
     const bool sound = std::isfinite(rr) && std::isfinite(rz);
+
+    // What is left of the residual adds up to momentum that came from nowhere. With nothing to lean on it is given back
+    // evenly (the correction of the translations alone, exact where walls and held particles take no part).
+    Vec3 drift;
+    if (sound && !leaning_) {
+        double mass = 0, lost[3] = {};
+        for (int r = 0; r < p.moverCount; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            mass += static_cast<double>(trait_[i].z);
+            lost[0] += static_cast<double>(residual_[i].x), lost[1] += static_cast<double>(residual_[i].y);
+            lost[2] += static_cast<double>(residual_[i].z);
+        }
+        drift = {static_cast<float>(lost[0] / mass), static_cast<float>(lost[1] / mass),
+                 static_cast<float>(lost[2] / mass)};
+    }
+
     const float soften = detExp(kSofteningLog / static_cast<float>(std::max(1, f.subSteps)));
     forMovers([&](int begin, int, int last, BlockSums&) {
         for (int r = 8 * begin; r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
-            if (!sound) p.velocity[i].setXyz(before_[i].xyz());
-            const Vec3 change = p.velocity[i].xyz() - before_[i].xyz();
+            if (!sound) p.velocity[i] = before_[i];
+            const Vec3 change = p.velocity[i].xyz() + drift - before_[i].xyz();
+            p.velocity[i].setXyz(before_[i].xyz() + change);
             p.velocityChange[i] = {change.x, change.y, change.z, std::max(1.0f, soften * p.velocityChange[i].w)};
             holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
         }

@@ -22,7 +22,7 @@ void WallFinder::gather(const Collider* colliders, const Box* bounds, int collid
             all_ = true;
             return;
         }
-        near_[count_++] = c;
+        near_[count_++] = {&colliders[c], normal};
     }
 }
 
