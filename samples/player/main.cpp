@@ -24,6 +24,12 @@ int main(int argc, char** argv) {
     addBench(app, exitCode);
     addMakeMesh(app, exitCode);
     try {
+        if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1])) {
+            std::string known;
+            for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+                known += (known.empty() ? "" : ", ") + command->get_name();
+            throw thaw::scene::InputError("unknown command '" + oneLine(argv[1], 40) + "' (known: " + known + ")");
+        }
         app.parse(argc, argv);
         return exitCode;
     } catch (const CLI::ParseError& e) {

@@ -3,8 +3,6 @@
 #include "mesh.h"
 
 #include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -25,6 +23,7 @@ constexpr size_t kMaxFileBytes = size_t(1) << 30;
 constexpr size_t kMaxTriangles = 100'000'000;
 constexpr int kMaxNodeDepth = 256;
 constexpr size_t kMaxNodes = 100'000;
+constexpr size_t kMaxCorners = 10'000;
 
 struct VertexKey {
     std::array<uint32_t, 3> bits;
@@ -37,6 +36,51 @@ struct VertexHash {
         return size_t(h);
     }
 };
+
+// Cuts a polygon into triangles by clipping ears in the plane that fits it best. Not left to the importer: its own step
+// ends the program on some damaged polygons.
+void addPolygon(TriMesh& out, std::vector<uint32_t>& corners) {
+    if (corners.size() > kMaxCorners) throw std::runtime_error("has a face with more than 10000 corners");
+    auto point = [&](uint32_t v, int axis) { return double(out.vertices[size_t(v) * 3 + size_t(axis)]); };
+    if (corners.size() > 3) {
+        double normal[3] = {}; // Newell's
+        for (size_t i = 0; i < corners.size(); ++i) {
+            const uint32_t a = corners[i], b = corners[(i + 1) % corners.size()];
+            for (int k = 0; k < 3; ++k)
+                normal[k] +=
+                    (point(a, (k + 1) % 3) - point(b, (k + 1) % 3)) * (point(a, (k + 2) % 3) + point(b, (k + 2) % 3));
+        }
+        int drop = 0;
+        for (int k = 1; k < 3; ++k)
+            if (std::abs(normal[k]) > std::abs(normal[drop])) drop = k;
+        const int u = (drop + 1) % 3, v = (drop + 2) % 3;
+        const double sign = normal[drop] < 0.0 ? -1.0 : 1.0;
+        auto turn = [&](uint32_t a, uint32_t b, uint32_t c) {
+            return sign * ((point(b, u) - point(a, u)) * (point(c, v) - point(a, v)) -
+                           (point(b, v) - point(a, v)) * (point(c, u) - point(a, u)));
+        };
+        while (corners.size() > 3) {
+            const size_t n = corners.size();
+            size_t ear = 0; // when no ear is found (a crossed or flat polygon) any corner will do
+            for (size_t i = 0; i < n; ++i) {
+                const uint32_t a = corners[(i + n - 1) % n], b = corners[i], c = corners[(i + 1) % n];
+                if (turn(a, b, c) <= 0.0) continue;
+                bool empty = true;
+                for (size_t j = 0; j < n && empty; ++j) {
+                    const uint32_t p = corners[j];
+                    empty =
+                        p == a || p == b || p == c || turn(a, b, p) < 0.0 || turn(b, c, p) < 0.0 || turn(c, a, p) < 0.0;
+                }
+                if (!empty) continue;
+                ear = i;
+                break;
+            }
+            out.addTriangle(corners[(ear + n - 1) % n], corners[ear], corners[(ear + 1) % n]);
+            corners.erase(corners.begin() + std::ptrdiff_t(ear));
+        }
+    }
+    out.addTriangle(corners[0], corners[1], corners[2]);
+}
 
 // Joins every instance of every mesh; welds vertices that are equal to the bit (formats such as STL repeat them).
 struct Joiner {
@@ -58,16 +102,17 @@ struct Joiner {
 
     void addMesh(const aiMesh& mesh, const aiMatrix4x4& transform) {
         const bool mirrored = aiMatrix3x3(transform).Determinant() < 0.0f;
+        std::vector<uint32_t> corners;
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
-            if (face.mNumIndices != 3) continue; // points and lines enclose nothing
-            uint32_t corner[3];
-            for (unsigned k = 0; k < 3; ++k) {
+            if (face.mNumIndices < 3) continue; // points and lines enclose nothing
+            corners.clear();
+            for (unsigned k = 0; k < face.mNumIndices; ++k) {
                 if (face.mIndices[k] >= mesh.mNumVertices) throw std::runtime_error("has a face that names no vertex");
-                corner[k] = weld(transform * mesh.mVertices[face.mIndices[k]]);
+                corners.push_back(weld(transform * mesh.mVertices[face.mIndices[k]]));
             }
-            if (mirrored) std::swap(corner[1], corner[2]);
-            out.addTriangle(corner[0], corner[1], corner[2]);
+            if (mirrored) std::reverse(corners.begin(), corners.end());
+            addPolygon(out, corners);
             if (out.triangleCount() > kMaxTriangles) throw std::runtime_error("has more than 100000000 triangles");
         }
     }
@@ -131,15 +176,9 @@ TriMesh importMesh(const std::string& path) {
     if (extension == ".ply") checkPlyHeader(path, bytes);
 
     Assimp::Importer importer;
-    // Only shapes matter: what else a file holds is dropped before it is processed.
-    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                                                            aiComponent_COLORS | aiComponent_TEXCOORDS |
-                                                            aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
-                                                            aiComponent_TEXTURES | aiComponent_LIGHTS |
-                                                            aiComponent_CAMERAS | aiComponent_MATERIALS);
     const aiScene* source = nullptr;
     try {
-        source = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_Triangulate);
+        source = importer.ReadFile(path, 0);
     } catch (const std::exception& e) { // some importers let theirs through
         throw std::runtime_error(oneLine(std::string("cannot be read: ") + e.what()));
     }

@@ -100,7 +100,7 @@ struct Camera {
 };
 
 struct Look {
-    thawVec3 sunDirection{-0.62f, 0.66f, 0.36f}; // toward the sun, any length but 0; unit length after loading
+    thawVec3 sunDirection{-0.62f, 0.66f, 0.36f}; // toward the sun, any length but 0
     float exposure = 1.0f;                       // range 0.01..100
 };
 

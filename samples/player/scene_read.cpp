@@ -533,10 +533,9 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
     if (const json* value = root.find("look")) {
         Reader r(*value, "/look", file);
         if (r.vector("sunDirection", scene.look.sunDirection, -1e3, 1e3)) {
-            thawVec3& s = scene.look.sunDirection;
+            const thawVec3& s = scene.look.sunDirection;
             const double length = std::hypot(double(s.x), double(s.y), double(s.z));
             if (length < 1e-6) r.bad("/look/sunDirection", "has no length");
-            if (std::abs(length - 1.0) > 1e-6) s = {float(s.x / length), float(s.y / length), float(s.z / length)};
         }
         r.real("exposure", scene.look.exposure, 0.01, 100.0);
         r.done();
