@@ -49,7 +49,8 @@ template <bool kMixed> void collect(const ListArgs& a, uint32_t key, ListScratch
     const int x = static_cast<int>(cell) % nx, y = static_cast<int>(cell) / nx % ny,
               z = static_cast<int>(cell) / nx / ny;
     c.rangeCount = 0;
-    for (int kind = 0; kind < 2; ++kind)
+    const int firstKind = a.moverCount > 0 ? 0 : 1, lastKind = a.moverCount < a.count ? 1 : 0;
+    for (int kind = firstKind; kind <= lastKind; ++kind)
         c.rangeCount +=
             a.grid.ranges(a.cellStart + static_cast<uint32_t>(kind) * cells, x, y, z, c.ranges + c.rangeCount);
     const uint32_t own[2] = {a.cellStart[cell], a.cellStart[cell + cells]};
@@ -99,32 +100,37 @@ HWY_INLINE Mask near(const Self& i, const float* x, const float* y, const float*
 // Appends the entries that the mask names and returns how many. Highway's own CompressStore is an instruction that
 // takes Zen 4 over a hundred cycles with AVX-512, and with AVX2 gcc copies its table to the stack at every call (500
 // instead of 50 ns a row).
-HWY_INLINE int append(U32 entry, Mask m, uint32_t* out) {
+HWY_INLINE size_t append(U32 entry, Mask m, uint32_t* out) {
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET <= HWY_AVX3
     hn::StoreU(hn::Compress(entry, hn::RebindMask(kU32, m)), kU32, out);
-    return static_cast<int>(hn::CountTrue(kF32, m));
+    return hn::CountTrue(kF32, m);
 #else
     uint8_t bits[8] = {};
     hn::StoreMaskBits(kF32, m, bits);
     const uint32_t* order = kCompress.order[bits[0]];
     hn::StoreU(hn::TableLookupLanes(entry, hn::IndicesFromVec(kU32, hn::Load(kU32, order))), kU32, out);
-    return static_cast<int>(hn::CountTrue(kF32, m));
+    return hn::CountTrue(kF32, m);
 #endif
 }
 
+// Writes the neighbours of one row to out, ascending, and returns how many; stops soon after kMaxNeighbors.
 template <bool kMixed>
 HWY_INLINE int scanCopied(ListScratch& s, int count, int self, const Self& i, F32 limit, uint32_t* out) {
     const float kept = s.x[self];
     s.x[self] = Particles::kFar;
-    int n = 0;
-    for (int k = 0; k < count && n <= Neighbors::kMaxNeighbors; k += kLanes) {
-        const Mask m = near<kMixed>(i, s.x + k, s.y + k, s.z + k, s.h + k, limit);
-        n += append(hn::LoadU(kU32, s.entry + k), m, out + n);
+    uint32_t* end = out;
+    for (int from = 0; from < count && end - out <= Neighbors::kMaxNeighbors; from += ListScratch::kStretch) {
+        const size_t to = static_cast<size_t>(std::min(count, from + ListScratch::kStretch));
+        for (size_t k = static_cast<size_t>(from); k < to; k += kLanes) {
+            const Mask m = near<kMixed>(i, s.x + k, s.y + k, s.z + k, s.h + k, limit);
+            end += append(hn::LoadU(kU32, s.entry + k), m, end);
+        }
     }
     s.x[self] = kept;
-    return n;
+    return static_cast<int>(end - out);
 }
 
+// The same for cells with more candidates than are copied; stops when there are more.
 template <bool kMixed>
 int scanInPlace(const ListArgs& a, const Candidates& c, int self, const Self& i, F32 limit, uint32_t* out) {
     int n = 0;
@@ -135,7 +141,7 @@ int scanInPlace(const ListArgs& a, const Candidates& c, int self, const Self& i,
             Mask m = near<kMixed>(i, a.x + j, a.y + j, a.z + j, a.h + j, limit);
             m = hn::And(m, hn::FirstN(kF32, c.ranges[r].end - j));
             m = hn::And(m, hn::RebindMask(kF32, hn::Ne(entry, me)));
-            n += append(hn::BitCast(kU32, entry), m, out + n);
+            n += static_cast<int>(append(hn::BitCast(kU32, entry), m, out + n));
         }
     return n;
 }
