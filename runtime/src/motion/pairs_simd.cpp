@@ -172,7 +172,8 @@ double innerRows(const float* a, const float* b, int begin, int end) {
 void separationGroups(const SeparationPass& p, int begin, int end) {
     // Measured: pairs nearer than 0.65 spacings clump (28 % of a puddle without this pass, none with it); moving more
     // than 0.3 of that distance at once, or all of the overlap, throws neighbours.
-    constexpr float kShare = 0.65f, kStep = 0.3f, kRelax = 0.7f;
+    // Held particles keep a little more: between four of them the way in would be free below 0.71.
+    constexpr float kShare = 0.65f, kHeldShare = 0.73f, kStep = 0.3f, kRelax = 0.7f;
     for (int g = begin; g < end; ++g)
         for (int part = 0; part < 8; part += kLanes) {
             const Span s = spanOf(p.lists, g, part);
@@ -184,7 +185,10 @@ void separationGroups(const SeparationPass& p, int begin, int end) {
                 const Rows xj = gatherRows(p.position, s.entry + 8 * k);
                 F32 x = hn::Sub(xi.x, xj.x), y = hn::Sub(xi.y, xj.y), z = hn::Sub(xi.z, xj.z);
                 const F32 r2 = dot3(x, y, z, x, y, z);
-                const F32 d = hn::Mul(all(0.5f * kShare / kSupport), hn::Add(hi, hn::Abs(xj.w)));
+                const Mask held = hn::Lt(xj.w, zero());
+                const F32 scale =
+                    hn::IfThenElse(held, all(0.5f * kHeldShare / kSupport), all(0.5f * kShare / kSupport));
+                const F32 d = hn::Mul(scale, hn::Add(hi, hn::Abs(xj.w)));
                 const Mask close = hn::Lt(r2, hn::Mul(d, d));
                 if (hn::AllFalse(kF32, close)) continue;
                 // Of two in one place the one that comes first goes to the right.
@@ -195,7 +199,7 @@ void separationGroups(const SeparationPass& p, int begin, int end) {
                 x = hn::IfThenElse(same, hn::IfThenElse(before, least, hn::Neg(least)), x);
                 y = hn::IfThenZeroElse(same, y), z = hn::IfThenZeroElse(same, z);
                 const F32 r = hn::IfThenElse(same, least, hn::Sqrt(r2));
-                const F32 share = hn::IfThenElse(hn::Lt(xj.w, zero()), all(kRelax), all(0.5f * kRelax));
+                const F32 share = hn::IfThenElse(held, all(kRelax), all(0.5f * kRelax));
                 const F32 step = hn::Mul(share, hn::Min(hn::Sub(d, r), hn::Mul(all(kStep), d)));
                 const F32 f = hn::IfThenElseZero(close, hn::Div(step, r));
                 ox = hn::MulAdd(f, x, ox), oy = hn::MulAdd(f, y, oy), oz = hn::MulAdd(f, z, oz);
