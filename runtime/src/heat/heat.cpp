@@ -29,8 +29,8 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kExplicit = 0.9;
 constexpr int kSubCycles = 8;
 // More sub-cycles than that cost more than conjugate gradients.
-constexpr int kImplicitIterations = 40;
-constexpr double kImplicitTolerance = 1e-4;
+constexpr int kImplicitIterations = 30;
+constexpr double kImplicitTolerance = 1e-3;
 
 // Particles::irradiance remembers, from the last time rays were cast for a particle, how much of its sources' light
 // came through and how long ago that is: 2 (1 + age) + share; 0 when nothing is known.
@@ -108,7 +108,8 @@ Settled settle(const Material& m, double H, const Surroundings& s) {
 struct Heat::Impl {
     explicit Impl(Allocator& a)
         : allocator(a), exposed(a), spheres(a), sphereIds(a), priority(a), power(a), state(a), flow(a), weight(a),
-          direction(a), residual(a), solution(a), booking(a), blockSums(a), blockRays(a) {}
+          direction(a), residual(a), solution(a), heat(a), exchange(a), inverse(a), booking(a), blockSums(a),
+          blockRays(a) {}
 
     Allocator& allocator;
     std::unique_ptr<Visibility> visibility;
@@ -119,10 +120,10 @@ struct Heat::Impl {
     Array<uint8_t> priority; // per exposed: kNoRay, 1 + age, kUnknown
     Array<float> power;      // per row, W absorbed
 
-    Array<Vec4> state;                          // see ConductionPass
-    Array<float> flow, weight;                  // of the pair pass
-    Array<float> direction, residual, solution; // of the conjugate gradients
-    Array<Booking> booking;                     // per block
+    Array<Vec4> state;                                                   // see ConductionPass
+    Array<float> flow, weight;                                           // of the pair pass
+    Array<float> direction, residual, solution, heat, exchange, inverse; // of the conjugate gradients
+    Array<Booking> booking;                                              // per block
     struct Sums {
         double a, b;
         float low, high;
@@ -391,48 +392,47 @@ void Heat::Impl::implicitStep(const HeatFrame& f) {
     Particles& p = f.particles;
     const size_t rows = state.size();
     direction.assign(rows, 0.0f), residual.assign(rows, 0.0f), solution.assign(rows, 0.0f);
+    heat.assign(rows, 0.0f), exchange.assign(rows, 0.0f), inverse.assign(rows, 0.0f);
     const double dt = f.dt / conductionMoment();
-    const auto capacity = [&](size_t k) { return p.velocity[k].w * leastHeat(f.materials[p.material[k]]); };
-    const auto gain = [&](size_t k) { return dt * f.volume[k] * flow[k]; };
-    const auto diagonal = [&](size_t k) { return capacity(k) + dt * f.volume[k] * weight[k]; };
-    const auto active = [&](size_t k) { return weight[k] > 0 && p.velocity[k].w > 0; };
-
+    // Rows without neighbours keep zeros everywhere and take no part.
+    const auto active = [&](size_t k) { return inverse[k] > 0; };
     const Sums start = sumRows(f, [&](size_t k, Sums& s) {
-        if (!active(k)) return;
+        if (!(weight[k] > 0) || !(p.velocity[k].w > 0)) return;
+        const double capacity = p.velocity[k].w * leastHeat(f.materials[p.material[k]]);
+        heat[k] = static_cast<float>(capacity), exchange[k] = static_cast<float>(dt * f.volume[k]);
+        inverse[k] = static_cast<float>(1 / (capacity + dt * f.volume[k] * weight[k]));
         solution[k] = state[k].x;
         s.low = std::min(s.low, state[k].x), s.high = std::max(s.high, state[k].x);
-        residual[k] = static_cast<float>(gain(k));
-        direction[k] = static_cast<float>(residual[k] / diagonal(k));
+        residual[k] = exchange[k] * flow[k];
+        direction[k] = residual[k] * inverse[k];
         s.a += static_cast<double>(residual[k]) * direction[k];
     });
     double rz = start.a;
+    for (size_t k = 0; k < static_cast<size_t>(p.count); ++k) state[k].x = direction[k];
     for (int iteration = 0; iteration < kImplicitIterations && rz > kImplicitTolerance * kImplicitTolerance * start.a;
          ++iteration) {
-        f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
-            for (int i = begin; i < end; ++i) state[static_cast<size_t>(i)].x = direction[static_cast<size_t>(i)];
-        });
         pairPass(f, false);
         const double pAp = sumRows(f, [&](size_t k, Sums& s) {
-                               if (active(k)) s.a += direction[k] * (capacity(k) * direction[k] - gain(k));
+                               flow[k] = heat[k] * direction[k] - exchange[k] * flow[k];
+                               s.a += static_cast<double>(direction[k]) * flow[k];
                            }).a;
         if (!(pAp > 0)) break;
-        const double alpha = rz / pAp;
+        const float alpha = static_cast<float>(rz / pAp);
         const double next = sumRows(f, [&](size_t k, Sums& s) {
-                                if (!active(k)) return;
-                                const double Ap = capacity(k) * direction[k] - gain(k);
-                                solution[k] = static_cast<float>(solution[k] + alpha * direction[k]);
-                                residual[k] = static_cast<float>(residual[k] - alpha * Ap);
-                                s.a += static_cast<double>(residual[k]) * residual[k] / diagonal(k);
+                                solution[k] += alpha * direction[k];
+                                residual[k] -= alpha * flow[k];
+                                s.a += static_cast<double>(residual[k]) * (residual[k] * inverse[k]);
                             }).a;
-        const double beta = next / rz;
+        const float beta = static_cast<float>(next / rz);
         rz = next;
         f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
             for (int i = begin; i < end; ++i) {
                 const size_t k = static_cast<size_t>(i);
-                if (active(k)) direction[k] = static_cast<float>(residual[k] / diagonal(k) + beta * direction[k]);
+                state[k].x = direction[k] = residual[k] * inverse[k] + beta * direction[k];
             }
         });
     }
+    const auto capacity = [&](size_t k) { return static_cast<double>(heat[k]); };
     const auto kelvin = [&](size_t k) {
         return f.materials[p.material[k]].kelvin(p.enthalpy[k]) - static_cast<double>(f.ambient);
     };

@@ -61,8 +61,12 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
         Box around;
         float reach = 0;
         for (int i = begin; i < end; ++i) {
-            around.grow(particles.position[static_cast<size_t>(i)].xyz());
-            reach = std::max(reach, particles.position[static_cast<size_t>(i)].w);
+            const Vec4 x = particles.position[static_cast<size_t>(i)];
+            around.lower = {std::min(around.lower.x, x.x), std::min(around.lower.y, x.y),
+                            std::min(around.lower.z, x.z)};
+            around.upper = {std::max(around.upper.x, x.x), std::max(around.upper.y, x.y),
+                            std::max(around.upper.z, x.z)};
+            reach = std::max(reach, x.w);
         }
         // Colliders that may touch this block; more than fit are asked for every row.
         constexpr int kNear = 16;
@@ -82,6 +86,7 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
         }
         const int walls = everyCollider ? colliderCount : nearCount;
         int exposed = 0;
+        float lastVolume = 0, edge = 0; // most rows are of one size
         for (int i = begin; i < end; ++i) {
             const size_t k = static_cast<size_t>(i);
             const float h = particles.position[k].w;
@@ -95,6 +100,7 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
                 if (!wall.alive) continue;
                 Vec3 n;
                 const float a = contact(wall.distance(particles.position[k].xyz(), n) * (kSupport / h));
+                if (a == 0) continue;
                 // Divided, not added: the shares of bare sides multiply to a good approximation.
                 share /= 1 - kFaceMissing * a;
                 gradient = gradient - (kFaceGradient * a / h) * n;
@@ -102,10 +108,10 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
             const float missing = 1 - share, steep = length(gradient) * h;
             const float area = areaOf(missing);
             if (!(area > 0) || (steep < kLeastGradient && missing < kSurelyBare)) continue;
-            const float r = detCbrt(volume[k]);
+            if (volume[k] != lastVolume) lastVolume = volume[k], edge = detCbrt(lastVolume);
             Vec4& normal = particles.normal[k];
             if (steep > kLeastDirection) normal.setXyz(normalizeOr(-gradient, {}));
-            normal.w = area * r * r;
+            normal.w = area * edge * edge;
             particles.flags[k] = static_cast<uint8_t>(particles.flags[k] | kSurface);
             ++exposed;
         }
