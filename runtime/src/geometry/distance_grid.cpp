@@ -48,24 +48,25 @@ private:
     int steps_ = 0;
 };
 
-// Exact signed distances of n nodes per axis from `first` on, `at(x, y, z)` says where they go.
+// Signed distances of n nodes per axis from `first` on, exact up to the band and cut there; `at(x, y, z)` says where
+// they go.
 template <class At>
-void fillNodes(const TriangleTree& tree, bool watertight, Vec3 first, float cell, int nx, int ny, int nz, uint32_t hint,
+void fillNodes(const TriangleTree& tree, bool watertight, Vec3 first, float cell, int nx, int ny, int nz, float band,
                At&& at) {
     struct Start {
         SideWalk walk;
         uint32_t hint;
     };
-    Start slab{SideWalk(tree, watertight), hint};
+    Start slab{SideWalk(tree, watertight), TriangleTree::kNoHint};
     for (int z = 0; z < nz; ++z) {
         Start row = slab;
         for (int y = 0; y < ny; ++y) {
             Start node = row;
             for (int x = 0; x < nx; ++x) {
                 Vec3 p = first + Vec3{float(x) * cell, float(y) * cell, float(z) * cell};
-                TriangleTree::Nearest near = tree.nearest(p, node.hint);
+                TriangleTree::Nearest near = tree.nearest(p, node.hint, band * band);
                 float d = std::sqrt(near.distance2);
-                node.hint = near.triangle;
+                if (near.distance2 < band * band) node.hint = near.triangle;
                 *at(x, y, z) = node.walk.inside(p, d, cell * 1.001f) ? -d : d;
                 if (x == 0) row = node;
                 if (x == 0 && y == 0) slab = node;
@@ -198,7 +199,7 @@ DistanceGrid makeDistanceGrid(const CleanMesh& mesh, float cell, float margin, s
             int x0 = b % bx * kBlock, y0 = b / bx % by * kBlock, z0 = b / (bx * by) * kBlock;
             Vec3 first = grid.origin + Vec3{float(x0) * cell, float(y0) * cell, float(z0) * cell};
             fillNodes(tree, mesh.watertight, first, cell, std::min(kBlock, grid.nx - x0),
-                      std::min(kBlock, grid.ny - y0), std::min(kBlock, grid.nz - z0), TriangleTree::kNoHint,
+                      std::min(kBlock, grid.ny - y0), std::min(kBlock, grid.nz - z0), INFINITY,
                       [&](int x, int y, int z) {
                           return &grid.values[size_t(x0 + x) +
                                               size_t(grid.nx) * (size_t(y0 + y) + size_t(grid.ny) * size_t(z0 + z))];
@@ -281,7 +282,7 @@ BrickGrid makeBrickGrid(const CleanMesh& mesh, const TriangleTree& tree, float c
                 z = int(i / uint32_t(grid.nx) / uint32_t(grid.ny));
             float* values = &grid.values[size_t(k) * kBrick];
             fillNodes(tree, mesh.watertight, grid.origin + edge * Vec3{float(x), float(y), float(z)}, cell, kNodes,
-                      kNodes, kNodes, TriangleTree::kNoHint,
+                      kNodes, kNodes, std::max(bandInside, bandOutside),
                       [&](int a, int b, int c) { return values + a + kNodes * (b + kNodes * c); });
         }
     });

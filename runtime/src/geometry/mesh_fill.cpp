@@ -26,9 +26,14 @@ namespace {
 constexpr float kSupport = 2.2f; // of the kernel, in spacings
 constexpr float kDepth = 0.5f;   // of the outermost layer
 constexpr float kMinDistance = 0.75f;
+constexpr float kReach = 0.93f;                    // a surface point farther from all particles is bare
 constexpr float kMoveAll = 3.0f, kMoveNone = 4.0f; // depth where mobility starts to fade, and where it is gone
-constexpr float kBandInside = 4.5f, kBandOutside = 1.2f;
-constexpr float kSkin = 0.35f; // neighbour lists stay valid while nobody moved more than half of it
+constexpr float kBandInside = 1.8f, kBandOutside = 1.0f;
+// Of a particle that was called to an edge or corner, which half a spacing along each face would leave 0.87 away.
+constexpr float kCornerDepth = 0.42f;
+constexpr float kEdgePitch = 0.92f; // least distance of two of them
+constexpr float kLeastDepth = 0.3f; // where separating pairs may push a particle to
+constexpr float kSkin = 0.4f;       // neighbour lists stay valid while nobody moved more than half of it
 constexpr int kBlock = 512;
 
 // Gradient of Wendland C2 (3D, support 2.2) per distance: dW/dr / r, negative.
@@ -113,11 +118,19 @@ struct Filler {
     Vec3 center;              // local = (world - center) / spacing
     std::vector<Vec3> points; // local
     std::vector<Vec3> next;
-    size_t lattice = 0, inserted = 0, removed = 0;
+    std::vector<float> mobility; // 1 near the surface, 0 deep inside
+    size_t pinned = 0;           // the first ones: on sharp edges
+    size_t inserted = 0;
 
     Filler(const CleanMesh& m, float s, Tasks& t) : mesh(m), spacing(s), tasks(t), tree(m.vertices, m.indices) {
         center = 0.5f * (mesh.bounds.lower + mesh.bounds.upper);
-        grid = makeBrickGrid(mesh, tree, 0.5f * spacing, kBandInside * spacing, kBandOutside * spacing, tasks);
+        grid = makeBrickGrid(mesh, tree, cellSize(mesh, spacing), kBandInside * spacing, kBandOutside * spacing, tasks);
+    }
+
+    // Half a spacing resolves everything that holds a layer of particles; sheets and wicks need their own thickness.
+    static float cellSize(const CleanMesh& mesh, float spacing) {
+        double thickness = 2 * mesh.report.volume / std::max(mesh.report.area, 1e-30);
+        return std::min(0.5f, std::max(0.1f, float(thickness / double(spacing)) * 0.25f)) * spacing;
     }
 
     // In spacings; gradient points up the distance, to the surface.
@@ -152,6 +165,17 @@ struct Filler {
             Vec3 p;
             float key;
         };
+        Cells cells; // of the particles on edges: they push lattice points out of their place
+        cells.build(points, 1);
+        auto occupied = [&](Vec3 p) {
+            bool found = false;
+            cells.forNear(p, 0.7f, [&](uint32_t j) {
+                Vec3 d = points[j] - p;
+                found |= dot(d, d) < 0.7f * 0.7f;
+            });
+            return found;
+        };
+        count -= std::min(count, pinned);
         std::vector<std::vector<Candidate>> slabs(static_cast<size_t>(n[2]));
         tasks.forBlocks(n[2], 1, [&](int begin, int end, int, int) {
             for (int z = begin; z < end; ++z)
@@ -164,7 +188,8 @@ struct Filler {
                         // A plane at distance d cuts a cell of edge 1; across a diagonal it reaches further than 0.5.
                         float reach = 0.5f * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z));
                         float share = reach > 0.25f ? 0.5f + 0.5f * d / reach : d > 0 ? 1.0f : 0.0f;
-                        if (share > 0) slabs[size_t(z)].push_back({p, std::min(share, 1.0f) - dither(x, y, z)});
+                        if (share > 0 && !(d < 1.5f && occupied(p)))
+                            slabs[size_t(z)].push_back({p, std::min(share, 1.0f) - dither(x, y, z)});
                     }
         });
         std::vector<Candidate> all;
@@ -179,44 +204,68 @@ struct Filler {
         order.resize(count);
         std::sort(order.begin(), order.end());
         for (uint32_t i : order) points.push_back(all[i].p);
-        lattice = points.size();
+        makeMobility();
+    }
+
+    // Gradient of the depth over 0.4 around p: where the nearest face changes (corners, edges) it points between the
+    // faces.
+    Vec3 wideGradient(Vec3 p) const {
+        constexpr float kWide = 0.4f;
+        Vec3 g;
+        auto slope = [&](Vec3 e) { return (depthAt(p + e, g) - depthAt(p - e, g)) / (2 * kWide); };
+        return {-slope({kWide, 0, 0}), -slope({0, kWide, 0}), -slope({0, 0, kWide})};
     }
 
     // Moves p inward until it is `target` deep, or as deep as it gets where the part is thinner.
     Vec3 sink(Vec3 p, float target) const {
         Vec3 g;
         float d = depthAt(p, g);
-        for (int i = 0; i < 4 && d < target; ++i) {
+        auto climb = [&] { // one step down the distance, halved until it helps
             float slope2 = dot(g, g);
-            if (slope2 < 0.04f) break; // on the middle of a thin part
+            if (slope2 < 0.04f) return false; // the middle of a thin part
             float l = std::sqrt(slope2), step = std::min((target - d) / std::max(l, 0.5f), 0.7f);
-            bool moved = false;
-            for (int half = 0; half < 3 && !moved; ++half, step *= 0.5f) {
+            for (int half = 0; half < 3; ++half, step *= 0.5f) {
                 Vec3 to = p - (step / l) * g, gTo;
                 float dTo = depthAt(to, gTo);
-                if (dTo > d + 1e-4f) p = to, d = dTo, g = gTo, moved = true;
+                if (dTo > d + 1e-4f) return p = to, d = dTo, g = gTo, true;
             }
-            if (!moved) break;
+            return false;
+        };
+        for (int i = 0; i < 6 && d < target; ++i) {
+            if (climb()) continue;
+            g = wideGradient(p);
+            if (!climb()) break;
         }
         return p;
+    }
+
+    // From where each lattice point starts: by the exact distance, since the bricks know only the outermost layers.
+    void makeMobility() {
+        mobility.resize(points.size());
+        tasks.forBlocks(int(points.size() - pinned), kBlock, [&](int begin, int end, int, int) {
+            uint32_t hint = TriangleTree::kNoHint;
+            for (int i = begin; i < end; ++i) {
+                size_t k = pinned + size_t(i);
+                Vec3 g, p = points[k];
+                float d = depthAt(p, g);
+                if (d > 0.9f * kBandInside) {
+                    TriangleTree::Nearest near = tree.nearest(center + spacing * p, hint);
+                    hint = near.triangle, d = std::sqrt(near.distance2) / spacing;
+                }
+                mobility[k] = std::min(1.0f, std::max(0.0f, (kMoveNone - d) / (kMoveNone - kMoveAll)));
+            }
+        });
     }
 
     struct Lists {
         std::vector<uint32_t> who;   // particles that move
         std::vector<float> mobility; // of each of them
         std::vector<uint32_t> start, neighbors;
+        std::vector<Vec3> made; // positions then
     };
 
     void makeLists(Lists& lists, float radius) {
-        lists.who.clear(), lists.mobility.clear();
-        std::vector<float> mobility(points.size());
-        tasks.forBlocks(int(points.size()), kBlock, [&](int begin, int end, int, int) {
-            for (int i = begin; i < end; ++i) {
-                Vec3 g;
-                float d = depthAt(points[size_t(i)], g);
-                mobility[size_t(i)] = std::min(1.0f, std::max(0.0f, (kMoveNone - d) / (kMoveNone - kMoveAll)));
-            }
-        });
+        lists.who.clear(), lists.mobility.clear(), lists.made = points;
         for (uint32_t i = 0; i < points.size(); ++i)
             if (mobility[i] > 0) lists.who.push_back(i), lists.mobility.push_back(mobility[i]);
         Cells cells;
@@ -240,8 +289,9 @@ struct Filler {
         for (auto& list : found) lists.neighbors.insert(lists.neighbors.end(), list.begin(), list.end());
     }
 
-    // One Jacobi sweep; returns the farthest move. separate: only pairs closer than that are pushed, none other.
-    float sweep(const Lists& lists, float rate, float separate) {
+    // One Jacobi sweep; returns how far the farthest is from where the lists were made. separate: only pairs closer
+    // than that are pushed, none other.
+    float sweep(const Lists& lists, float rate, float limit, float separate) {
         next = points;
         int count = int(lists.who.size());
         std::vector<float> farthest(size_t(Tasks::blockCount(count, kBlock)), 0.0f);
@@ -270,10 +320,10 @@ struct Filler {
                 }
                 push = rate * lists.mobility[size_t(k)] * push;
                 float l = length(push);
-                if (l > 0.15f) push = (0.15f / l) * push;
-                Vec3 to = sink(p + push, kDepth);
+                if (l > limit) push = (limit / l) * push;
+                Vec3 to = sink(p + push, separate > 0 ? kLeastDepth : kDepth);
                 next[i] = to;
-                farthest[size_t(block)] = std::max(farthest[size_t(block)], length(to - p));
+                farthest[size_t(block)] = std::max(farthest[size_t(block)], length(to - lists.made[i]));
             }
         });
         points.swap(next);
@@ -286,8 +336,10 @@ struct Filler {
         Lists lists;
         float moved = kSkin, radius = (separate > 0 ? separate : kSupport) + kSkin;
         for (int s = 0; s < sweeps; ++s) {
-            if (moved >= 0.5f * kSkin) makeLists(lists, radius), moved = 0;
-            moved += sweep(lists, rate, separate);
+            if (moved >= 0.5f * kSkin) makeLists(lists, radius);
+            // Long steps first, then short ones: with constant ones the layers keep swinging.
+            float fade = 1 - float(s) / float(sweeps);
+            moved = sweep(lists, rate * (0.4f + 0.6f * fade), 0.02f + 0.13f * fade, separate);
         }
     }
 
@@ -295,36 +347,83 @@ struct Filler {
         Vec3 p, normal; // local
     };
 
-    // Evenly spread over the surface: every triangle gets what its area asks for, the rest is carried on to the next
-    // one.
+    // Evenly spread over the surface: large triangles get rows of points from edge to edge, so that corners are there,
+    // of small ones every few get one.
     std::vector<Sample> surfaceSamples() const {
-        double area = mesh.report.area / (double(spacing) * spacing), each = std::max(0.16, area / 4e6);
+        double area = mesh.report.area / (double(spacing) * spacing), each = std::max(0.16, area / 4e6),
+               carry = 0.5 * each;
+        float pitch = 0.5f * std::sqrt(float(each)); // of the rows: edges are divided by it
         std::vector<Sample> samples;
         samples.reserve(size_t(area / each) + 16);
-        double carry = 0.5;
         for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
             Vec3 v[3];
             for (size_t k = 0; k < 3; ++k) v[k] = (1 / spacing) * (mesh.vertices[mesh.indices[t + k]] - center);
             Vec3 n = cross(v[1] - v[0], v[2] - v[0]);
-            double want = 0.5 * double(length(n)) / each + carry;
+            double own = 0.5 * double(length(n));
             n = normalizeOr(n, {0, 1, 0});
-            double whole = std::floor(want);
-            carry = want - whole;
-            for (double k = 0; k < whole; k += 1) { // R2 sequence (Roberts 2018), folded onto the triangle
-                double a = std::fmod(0.5 + 0.7548776662466927 * (k + 1), 1.0),
-                       b = std::fmod(0.5 + 0.5698402909980532 * (k + 1), 1.0);
-                if (a + b > 1) a = 1 - a, b = 1 - b;
-                samples.push_back({v[0] + float(a) * (v[1] - v[0]) + float(b) * (v[2] - v[0]), n});
+            if (own <= each) {
+                carry += own;
+                if (carry >= each) carry -= each, samples.push_back({(1.0f / 3) * (v[0] + v[1] + v[2]), n});
+                continue;
+            }
+            int base = 0; // the longest edge runs from corner base to the next
+            for (int k = 1; k < 3; ++k)
+                if (length(v[(k + 1) % 3] - v[k]) > length(v[(base + 1) % 3] - v[base])) base = k;
+            Vec3 a = v[base], b = v[(base + 1) % 3], c = v[(base + 2) % 3];
+            int rows = std::max(1, int(std::ceil(2 * float(own) / length(b - a) / pitch)));
+            for (int j = 0; j <= rows; ++j) {
+                float f = float(j) / float(rows);
+                Vec3 from = a + f * (c - a), to = b + f * (c - b);
+                int steps = std::max(1, int(std::ceil(length(to - from) / pitch)));
+                for (int i = 0; i <= steps; ++i) samples.push_back({from + (float(i) / float(steps)) * (to - from), n});
             }
         }
         return samples;
     }
 
-    // One round over the surface points that have no particle within `reach`. Returns how many there were.
-    size_t cover(const std::vector<Sample>& samples, float reach) {
-        constexpr float kRoom = 0.8f; // an inserted particle is at least this far from all others
+    // Particles along sharp edges and in corners come first and stay: relaxation alone leaves holes there, since a
+    // planar wall is not what is missing at an edge. Corners before edges, so that edges are divided from their ends.
+    void placeOnEdges(const std::vector<Sample>& samples) {
+        constexpr float kSharp =
+            0.55f; // from the surface point to the place below it; on a smooth surface kCornerDepth
+        struct Place {
+            Vec3 p;
+            int rank;
+        };
+        std::vector<Place> places(samples.size());
+        tasks.forBlocks(int(samples.size()), kBlock, [&](int begin, int end, int, int) {
+            for (int i = begin; i < end; ++i) {
+                const Sample& sample = samples[size_t(i)];
+                Vec3 g, p = sink(sample.p - 0.02f * sample.normal, kCornerDepth);
+                float far = length(p - sample.p);
+                bool good = far > kSharp && far < 1.2f && depthAt(p, g) > 0.9f * kCornerDepth;
+                places[size_t(i)] = {p, good ? int(far * 32) : -1};
+            }
+        });
+        std::vector<uint32_t> order;
+        for (uint32_t i = 0; i < places.size(); ++i)
+            if (places[i].rank >= 0) order.push_back(i);
+        std::sort(order.begin(), order.end(), [&](uint32_t l, uint32_t r) {
+            return places[l].rank != places[r].rank ? places[l].rank > places[r].rank : l < r;
+        });
+        std::vector<Vec3> candidates(order.size());
+        for (size_t k = 0; k < order.size(); ++k) candidates[k] = places[order[k]].p;
         Cells cells;
-        cells.build(points, 1);
+        cells.build(candidates, 1);
+        std::vector<uint8_t> taken(candidates.size(), 0);
+        for (uint32_t k = 0; k < candidates.size(); ++k) {
+            bool free = true;
+            cells.forNear(candidates[k], kEdgePitch, [&](uint32_t j) {
+                Vec3 d = candidates[j] - candidates[k];
+                if (taken[j] && dot(d, d) < kEdgePitch * kEdgePitch) free = false;
+            });
+            taken[k] = free;
+            if (free) points.push_back(candidates[k]), mobility.push_back(0);
+        }
+        pinned = points.size();
+    }
+
+    std::vector<uint8_t> findBare(const std::vector<Sample>& samples, const Cells& cells, float reach) const {
         std::vector<uint8_t> bare(samples.size());
         tasks.forBlocks(int(samples.size()), kBlock, [&](int begin, int end, int, int) {
             for (int i = begin; i < end; ++i) {
@@ -337,6 +436,28 @@ struct Filler {
                 bare[size_t(i)] = !covered;
             }
         });
+        return bare;
+    }
+
+    // A lattice that meets every face at half a spacing, as in a box of whole layers, is left alone.
+    bool perfect(const std::vector<Sample>& samples) const {
+        for (Vec3 p : points) {
+            Vec3 g;
+            if (depthAt(p, g) < kDepth - 0.05f) return false;
+        }
+        Cells cells;
+        cells.build(points, 1);
+        std::vector<uint8_t> bare = findBare(samples, cells, kReach);
+        return std::find(bare.begin(), bare.end(), uint8_t(1)) == bare.end();
+    }
+
+    // One round over the surface points that have no particle within `reach`: the nearest particle is called, or one is
+    // added. Returns how many there were.
+    size_t cover(const std::vector<Sample>& samples, float reach) {
+        constexpr float kRoom = 0.8f; // an inserted particle is at least this far from all others
+        Cells cells;
+        cells.build(points, 1);
+        std::vector<uint8_t> bare = findBare(samples, cells, reach);
         constexpr uint32_t kNone = 0xffffffffu;
         size_t old = points.size(), count = 0;
         std::vector<uint32_t> head, link; // the added ones by cell
@@ -371,18 +492,17 @@ struct Filler {
             ++count;
             float distance;
             if (nearestTo(samples[i].p, reach, distance) != kNone) continue;
-            Vec3 g, place = sink(samples[i].p - 0.05f * samples[i].normal, kDepth);
+            Vec3 g, place = sink(samples[i].p - 0.05f * samples[i].normal, kCornerDepth);
             if (depthAt(place, g) < 0.02f) continue;
             uint32_t j = nearestTo(place, 2, distance);
             if (j == kNone || distance >= kRoom) {
                 if (head.empty()) head.assign(cells.start.size() - 1, kNone);
                 uint32_t k = uint32_t(points.size());
                 size_t c = cells.cellOf(place);
-                points.push_back(place), link.push_back(head[c]), head[c] = k;
+                points.push_back(place), mobility.push_back(1), link.push_back(head[c]), head[c] = k;
                 ++inserted;
-            } else if (j < old && !called[j]) {
-                called[j] = 1;
-                points[j] = sink(points[j] + 0.6f * (place - points[j]), kDepth);
+            } else if (j < old && !called[j] && mobility[j] > 0) {
+                called[j] = 1, points[j] = sink(points[j] + 0.6f * (place - points[j]), kDepth);
             }
         }
         return count;
@@ -410,7 +530,6 @@ struct Filler {
         size_t kept = 0;
         for (size_t i = 0; i < points.size(); ++i)
             if (!drop[i]) points[kept++] = points[i];
-        removed += points.size() - kept;
         points.resize(kept);
     }
 };
@@ -444,20 +563,26 @@ thawResult fillMesh(const CleanMesh& mesh, float spacing, int maxParticles, Task
     };
     if (expected > 1.02 * double(maxParticles) + 1) return tooMany(std::round(expected));
     // 2^27 bricks are 512 MB of table, a cube of 2000 spacings.
-    if (brickCount(mesh, 0.5f * spacing, kBandOutside * spacing) > double(1 << 27)) {
+    if (brickCount(mesh, Filler::cellSize(mesh, spacing), kBandOutside * spacing) > double(1 << 27)) {
         message = number("mesh is too large for its spacing: %.3g spacings of %g m",
                          double(length(mesh.bounds.upper - mesh.bounds.lower)) / double(spacing), double(spacing));
         return thawResult_capacity;
     }
     Filler fill(mesh, spacing, tasks);
-    fill.makeLattice(size_t(std::max(1.0, std::round(expected))));
-    fill.relax(40, 0.5f, 0);
+    size_t count = size_t(std::max(1.0, std::round(expected)));
     std::vector<Filler::Sample> samples = fill.surfaceSamples();
-    for (int round = 0; round < 6; ++round) {
-        if (fill.cover(samples, 0.93f) == 0) break;
-        fill.relax(4, 0.5f, 0.9f);
+    fill.makeLattice(count);
+    if (!fill.perfect(samples)) {
+        fill.points.clear(), fill.mobility.clear();
+        fill.placeOnEdges(samples);
+        fill.makeLattice(count);
+        fill.relax(36, 0.5f, 0);
+        for (int round = 0; round < 4; ++round) {
+            if (fill.cover(samples, kReach) == 0) break;
+            fill.relax(4, 0.5f, 0.9f);
+        }
+        fill.relax(8, 0.7f, 0.85f);
     }
-    fill.relax(8, 0.7f, 0.85f);
     fill.prune();
     if (fill.points.empty()) {
         message = number("nothing fits: the mesh encloses %.3g m^3, but is thinner than its spacing of %g m everywhere",
