@@ -5,7 +5,7 @@
 // chord through each layer is known in closed form, so no marching is needed. Additive.
 
 in vec2 vLocal;
-uniform int uShape; // 0 flame, 1 ball, 2 halo only
+uniform int uShape; // 0 flame, 1 ball
 uniform vec3 uTint;
 uniform float uBrightness, uTime;
 uniform sampler2DMS uDepths;
@@ -27,7 +27,7 @@ float layer(vec2 q, float bottom, float top, float width) {
 void main() {
     vec3 light = vec3(0.0);
     if (uShape == 0) {
-        // The square is 3 flame widths wide and reaches from 0.6 below to 0.6 above; q.y is 0 at the bottom of the flame, 1 at its tip.
+        // The square leaves room for the halo; q.y is 0 at the bottom of the flame, 1 at its tip.
         vec2 q = vec2(vLocal.x * 3.0, vLocal.y * 0.8 + 0.5);
         float sway = 0.10 * sin(uTime * 7.3) + 0.06 * sin(uTime * 12.1 + 1.7);
         q.x += sway * max(q.y, 0.0) * max(q.y, 0.0);
@@ -47,15 +47,12 @@ void main() {
         vec2 h = vec2(q.x * 0.33, (q.y - 0.5) * 1.25);
         float halo = saturate(1.0 - dot(h, h));
         light += uTint * 0.05 * halo * halo;
-    } else if (uShape == 1) {
+    } else {
         float r = length(vLocal) * 2.0;
         float inside = r < 1.0 ? sqrt(1.0 - r * r) : 0.0;
         light = mix(uTint, vec3(1.0), 0.3 * inside) * 2.0 * smoothstep(0.0, 0.35, inside);
         float halo = saturate(1.0 - 0.5 * r);
         light += uTint * 0.35 * halo * halo;
-    } else {
-        float halo = saturate(1.0 - length(vLocal));
-        light = uTint * 0.05 * halo * halo * halo;
     }
     float seen = 0.0;
     for (int s = 0; s < uSampleCount; ++s)

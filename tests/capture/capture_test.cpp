@@ -62,6 +62,18 @@ TEST_CASE_FIXTURE(ViewFixture, "a ball shades the table where it touches it") {
     const double contact = meanOf(image, 0.39, 0.70, 0.41, 0.72).luminance();
     const double open = meanOf(image, 0.22, 0.70, 0.26, 0.72).luminance();
     CHECK(contact < 0.75 * open);
+    // Also where there is no key light that could throw a shadow: less of the room is seen from there.
+    const float intensity = scene.key.intensity;
+    scene.key.intensity = 0;
+    const float reflectivity = scene.floor.reflectivity;
+    scene.floor.reflectivity = 0;
+    const Image dim = draw(scene, v);
+    scene.meshes.front().position.y = 0.12f;
+    const Image lifted = draw(scene, v);
+    scene.meshes.front().position.y = 0.03f;
+    CHECK(meanOf(dim, 0.47, 0.765, 0.53, 0.78).luminance() < 0.8 * meanOf(lifted, 0.47, 0.765, 0.53, 0.78).luminance());
+    scene.floor.reflectivity = reflectivity;
+    scene.key.intensity = intensity;
     // The lit side of the ball faces us, the one behind it is in its shadow.
     const Mean lit = meanOf(image, 0.48, 0.40, 0.52, 0.46);
     scene.key.direction = {0, 0.7f, -1};
