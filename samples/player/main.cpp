@@ -24,11 +24,15 @@ int main(int argc, char** argv) {
     addBench(app, exitCode);
     addMakeMesh(app, exitCode);
     try {
-        if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1])) {
+        if (argc > 1 && argv[1][0] != '-') {
             std::string known;
-            for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+            bool found = false;
+            for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+                found = found || command->get_name() == argv[1];
                 known += (known.empty() ? "" : ", ") + command->get_name();
-            throw thaw::scene::InputError("unknown command '" + oneLine(argv[1], 40) + "' (known: " + known + ")");
+            }
+            if (!found)
+                throw thaw::scene::InputError("unknown command '" + oneLine(argv[1], 40) + "' (known: " + known + ")");
         }
         app.parse(argc, argv);
         return exitCode;
