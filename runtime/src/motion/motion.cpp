@@ -52,6 +52,42 @@ void wallFraction(const Contact* c, int n, float h, float& fraction, Vec3& gradi
     fraction = 1 - open;
 }
 
+// The fixed particles around a mover as one smooth wall: distance by how much of the support they fill, normal by how
+// that changes. Single particles leave hollows through which others sink, layer after layer.
+Vec4 heldSurface(const MotionFrame& f, int row) {
+    const Particles& p = f.particles;
+    const size_t i = static_cast<size_t>(row), g = i >> 3;
+    const uint32_t start = f.neighbors.first[g] + static_cast<uint32_t>(i & 7);
+    const Vec4 x = p.position[i];
+    float filled = 0;
+    Vec3 gradient;
+    // Fixed rows come after the movers and entries ascend: from the back, past the unused ones.
+    for (uint32_t k = f.neighbors.width[g]; k-- > 0;) {
+        const uint32_t e = start + 8 * k;
+        const int j = static_cast<int>(f.neighbors.entries[e] >> 4);
+        if (j < p.moverCount) break;
+        if (j >= p.count) continue;
+        const Vec4 y = p.position[static_cast<size_t>(j)];
+        const Vec3 d = x.xyz() - y.xyz();
+        const float h = 0.5f * (x.w + y.w), q = length(d) / h, a = std::max(0.0f, 1 - q);
+        filled += f.volume[j] * kWendland / (h * h * h) * (a * a) * (a * a) * (1 + 4 * q);
+        gradient += f.neighbors.gradient[e] * d;
+    }
+    filled /= latticeSum();
+    const float steep = length(gradient) * x.w;
+    if (!(filled > 1e-3f) || !(steep > 0.05f)) return {0, 0, 0, INFINITY};
+    const float* table = wallTable().fraction;
+    int low = 0, high = WallTable::kSize; // table[low] >= filled >= table[high]
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+        (table[middle] >= filled ? low : high) = middle;
+    }
+    const float between = table[low] > table[high] ? (table[low] - filled) / (table[low] - table[high]) : 0.0f;
+    const float q = -1 + 2 * (static_cast<float>(low) + std::clamp(between, 0.0f, 1.0f)) / WallTable::kSize;
+    const Vec3 n = (-x.w / steep) * gradient;
+    return {n.x, n.y, n.z, q * x.w};
+}
+
 bool outside(const Box& b, Vec3 p, float margin) {
     return p.x < b.lower.x - margin || p.x > b.upper.x + margin || p.y < b.lower.y - margin ||
            p.y > b.upper.y + margin || p.z < b.lower.z - margin || p.z > b.upper.z + margin;
@@ -60,9 +96,9 @@ bool outside(const Box& b, Vec3 p, float margin) {
 } // namespace
 
 Motion::Motion(Allocator& a)
-    : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), wallGradient_(a), trait_(a), point_(a),
-      coefficient_(a), wallDrag_(a), diagonal_(a), before_(a), residual_(a), direction_(a), image_(a), target_(a),
-      sums_(a) {}
+    : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), held_(a), wallGradient_(a), trait_(a),
+      point_(a), coefficient_(a), wallDrag_(a), diagonal_(a), before_(a), residual_(a), direction_(a), image_(a),
+      target_(a), sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
@@ -72,7 +108,8 @@ void Motion::begin(const MotionFrame& f) {
     const size_t rows = static_cast<size_t>(p.count) + Particles::kPadding;
     const size_t movers = static_cast<size_t>(8 * f.neighbors.moverGroups);
     contact_.resizeRaw(movers * kContacts), contactAdhesive_.resizeRaw(movers * kContacts);
-    contactCount_.resizeRaw(movers), wallGradient_.resizeRaw(movers), wallDrag_.resizeRaw(2 * movers);
+    contactCount_.resizeRaw(movers), held_.resizeRaw(movers), wallGradient_.resizeRaw(movers),
+        wallDrag_.resizeRaw(2 * movers);
     diagonal_.resizeRaw(movers), before_.resizeRaw(movers), residual_.resizeRaw(movers), image_.resizeRaw(movers);
     trait_.resizeRaw(rows), point_.resizeRaw(rows), direction_.resizeRaw(rows), target_.resizeRaw(rows);
     coefficient_.resizeRaw(f.neighbors.entries.size());
@@ -131,6 +168,7 @@ void Motion::begin(const MotionFrame& f) {
                 contact_[c] = {found[k].normal.x, found[k].normal.y, found[k].normal.z, found[k].distance};
                 contactAdhesive_[c] = found[k].adhesive;
             }
+            held_[i] = heldSurface(f, r);
             float solid = 0;
             Vec3 gradient;
             if (n) wallFraction(found, n, h, solid, gradient);
@@ -163,7 +201,7 @@ void Motion::begin(const MotionFrame& f) {
         // Rows of the last group that do not move have no part in anything.
         for (int r = last; r < 8 * end; ++r) {
             const size_t i = static_cast<size_t>(r);
-            contactCount_[i] = 0, wallGradient_[i] = {};
+            contactCount_[i] = 0, held_[i] = {0, 0, 0, INFINITY}, wallGradient_[i] = {};
         }
         sums_[static_cast<size_t>(block)] = sums;
     });
@@ -188,6 +226,12 @@ void Motion::holdAtWalls(size_t i, Vec4& velocity, float h, float dt) const {
         if (gap < 0) need = std::min(need, kWallRecovery * spacing / dt);
         const float into = dot(k.xyz(), v);
         if (into < need) v += (need - into) * k.xyz();
+    }
+    // Melt that lies in a pocket of solid may stay there: it is not driven out, it only gets no deeper.
+    const Vec4 held = held_[i];
+    if (held.w < INFINITY) {
+        const float need = std::min(0.0f, (kHeldStandoff * spacing - held.w) / dt), into = dot(held.xyz(), v);
+        if (into < need) v += (need - into) * held.xyz();
     }
     velocity.setXyz(v);
 }

@@ -56,6 +56,7 @@ public:
     static constexpr int kContacts = 4; // walls that a mover feels at once, the nearest
 
 private:
+    bool touches(size_t i) const { return contactCount_[i] || held_[i].w < INFINITY; }
     void holdAtWalls(size_t i, Vec4& velocity, float h, float dt) const;
     void applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end);
 
@@ -71,6 +72,7 @@ private:
     Array<Vec4> contact_;            // kContacts per mover: xyz outward normal, w distance in m; nearest first
     Array<uint8_t> contactAdhesive_; // per contact
     Array<uint8_t> contactCount_;    // per mover
+    Array<Vec4> held_;         // per mover: the surface of the fixed particles around it, like a contact; w inf: none
     Array<Vec4> wallGradient_; // per mover: xyz gradient of the wall's volume fraction in 1/m, w C = density error
     Array<Vec4>
         trait_; // per row: x viscosity in Pa s (< 0: fixed), y cohesion in m/s^2, z mass in kg, w pressure in Pa

@@ -23,7 +23,7 @@ void Motion::pressure(const MotionFrame& f) {
             pairPush({lists, point_.data(), wallGradient_.data(), f.invDensity, f.dt, p.velocity.data()}, begin, end);
             for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
                 const size_t i = static_cast<size_t>(r);
-                if (contactCount_[i]) holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
+                if (touches(i)) holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
             }
         });
     }

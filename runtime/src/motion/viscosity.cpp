@@ -156,7 +156,7 @@ void Motion::viscosity(const MotionFrame& f) {
             const Vec3 change = p.velocity[i].xyz() + drift - before_[i].xyz();
             p.velocity[i].setXyz(before_[i].xyz() + change);
             p.velocityChange[i] = {change.x, change.y, change.z, std::max(1.0f, soften * p.velocityChange[i].w)};
-            holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
+            if (touches(i)) holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
         }
     });
 }
