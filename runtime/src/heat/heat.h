@@ -43,16 +43,19 @@ struct HeatStats {
     bool raysReduced = false;
 };
 
-// Heat of one step. Each call is one stage; powers are gathered and integrated once, so that the ledger is exact.
+// Heat of one step. Each call is one stage, any but the last may be left out, in this order. Conduction and the
+// exchange with the surroundings change the enthalpies one after the other (each monotone at any dt); what changed is
+// booked, so that the ledger is exact. Temperatures and liquid fractions follow in integrate().
 class Heat {
 public:
     explicit Heat(Allocator& allocator); // throws std::bad_alloc; Embree is started at the first radiation
     ~Heat();
 
-    void radiation(const HeatFrame& f);  // refreshes Particles::irradiance by rays; then absorbs it
-    void conduction(const HeatFrame& f); // pairwise antisymmetric, harmonic mean conductivity
-    void loss(const HeatFrame& f);       // emission and convection to ambient
-    void integrate(const HeatFrame& f);  // enthalpy += power dt / mass, then temperature and liquid fraction
+    void
+    radiation(const HeatFrame& f); // casts rays, the unknown and the longest unseen first; finds the power absorbed
+    void conduction(const HeatFrame& f); // pairwise antisymmetric; sub-cycles, then implicit when dt is long
+    void loss(const HeatFrame& f);       // settles each surface particle with what it absorbs, emits, convects
+    void integrate(const HeatFrame& f);  // absorbs if loss() did not; bounds; temperature, liquid fraction
     const HeatStats& stats() const { return stats_; }
 
 private:
