@@ -8,6 +8,8 @@
 
 #include <cstdio>
 #include <cstring>
+#include <map>
+#include <mutex>
 
 namespace thaw::view {
 
@@ -24,6 +26,16 @@ std::string hex(EGLint code) {
     char text[16];
     std::snprintf(text, sizeof text, "0x%x", static_cast<unsigned>(code));
     return text;
+}
+
+// EGL gives the same display to everyone who asks and ends it for all of them at once, so the last context here has to.
+struct OpenDisplays {
+    std::mutex mutex;
+    std::map<EGLDisplay, int> contexts;
+};
+OpenDisplays& openDisplays() {
+    static OpenDisplays displays;
+    return displays;
 }
 
 struct Made {
@@ -44,7 +56,6 @@ bool open(EGLDisplay display, Made& made, std::string& why) {
         why = std::string(step) + " " + hex(eglGetError());
         if (made.surface != EGL_NO_SURFACE) eglDestroySurface(display, made.surface);
         if (made.context != EGL_NO_CONTEXT) eglDestroyContext(display, made.context);
-        eglTerminate(display);
         made = {};
         return false;
     };
@@ -103,6 +114,12 @@ std::unique_ptr<HeadlessContext> HeadlessContext::create(std::string& error) {
         error = "no headless OpenGL 3.3 context (" + tried + ")";
         return nullptr;
     }
+    // The default display may be the window system's, with windows of the host: that one is not ours to end.
+    if (way != "default display") {
+        OpenDisplays& displays = openDisplays();
+        const std::lock_guard lock(displays.mutex);
+        ++displays.contexts[made.display];
+    }
     std::unique_ptr<HeadlessContext> result(new HeadlessContext);
     result->display = made.display;
     result->context = made.context;
@@ -120,7 +137,12 @@ HeadlessContext::~HeadlessContext() {
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (surface != EGL_NO_SURFACE) eglDestroySurface(display, surface);
     eglDestroyContext(display, context);
-    // Not eglTerminate: a display is shared by everything in the process that opened it.
+    OpenDisplays& displays = openDisplays();
+    const std::lock_guard lock(displays.mutex);
+    const auto found = displays.contexts.find(display);
+    if (found == displays.contexts.end() || --found->second > 0) return;
+    displays.contexts.erase(found);
+    eglTerminate(display);
 }
 
 bool HeadlessContext::makeCurrent() { return eglMakeCurrent(display, surface, surface, context) == EGL_TRUE; }

@@ -199,6 +199,21 @@ TEST_CASE_FIXTURE(ViewFixture, "the same scene gives the same bytes, whatever wa
     CHECK(first.pixels == fresh->pixels);
 }
 
+TEST_CASE_FIXTURE(ViewFixture, "two contexts live side by side and one outlives the other") {
+    const Image before = draw(candle.scene(), smallView());
+    {
+        std::unique_ptr<view::HeadlessContext> other = view::HeadlessContext::create(error);
+        REQUIRE_MESSAGE(other, error);
+        std::unique_ptr<view::Renderer> there = view::Renderer::create(error);
+        REQUIRE_MESSAGE(there, error);
+        const std::optional<Image> image = there->capture(candle.scene(), smallView(), error);
+        REQUIRE_MESSAGE(image, error);
+        CHECK(image->pixels == before.pixels);
+    }
+    REQUIRE(context->makeCurrent());
+    CHECK(draw(candle.scene(), smallView()).pixels == before.pixels);
+}
+
 TEST_CASE_FIXTURE(ViewFixture, "what cannot be drawn is refused with the reason") {
     view::View v = smallView();
     const auto refused = [&](const view::Scene& scene, const view::View& bad, const char* word) {
