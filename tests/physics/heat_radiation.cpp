@@ -118,6 +118,25 @@ TEST_CASE("heat: a ball takes what its solid angle catches, and nothing on its b
         }
 }
 
+TEST_CASE("heat: a ball cut out of a lattice is not shaded by its own steps") {
+    for (float radius : {6.3f, 10.0f}) {
+        HeatFixture f(0.01f);
+        const int n = static_cast<int>(radius) + 2;
+        for (int i = -n; i <= n; ++i)
+            for (int j = -n; j <= n; ++j)
+                for (int k = -n; k <= n; ++k) {
+                    const Vec3 x{static_cast<float>(i) + 0.3f, static_cast<float>(j) + 0.1f,
+                                 static_cast<float>(k) + 0.77f};
+                    if (dot(x, x) < radius * radius) f.add(0.01f * x, 293.15f);
+                }
+        const float R = radius * 0.01f;
+        f.sources = {lamp(3 * R * normalizeOr({0.3f, 0.8f, -0.5f}, {}), 30)};
+        f.build();
+        CAPTURE(radius);
+        CHECK(sum(absorbed(f)) == doctest::Approx(15 * (1 - std::sqrt(1 - 1.0 / 9))).epsilon(0.05));
+    }
+}
+
 TEST_CASE("heat: a cube's lit face is not shaded by itself, its other faces get nothing") {
     HeatFixture f(0.01f);
     f.addBlock({0, 0, 0}, 14, 14, 14, room);
