@@ -110,6 +110,12 @@ std::string meshScene(const std::string& file) {
            R"(", "scale": 0.02}]})";
 }
 
+// The number behind a word; -1 when it is not there. Fillings are not exact lattices: compare with a tolerance.
+double countAfter(const std::string& out, const std::string& word) {
+    const size_t at = out.find(word);
+    return at == std::string::npos ? -1.0 : std::stod(out.substr(at + word.size()));
+}
+
 std::string hashOf(const std::string& out) {
     const size_t at = out.find("state hash");
     return at == std::string::npos ? "" : out.substr(at, out.find('\n', at) - at);
@@ -299,7 +305,7 @@ TEST_CASE("info tells what a scene holds and which stages run") {
     CAPTURE(answer.err);
     CAPTURE(answer.out);
     CHECK(answer.exitCode == 0);
-    CHECK(contains(answer.out, "particles: 216 of at most"));
+    CHECK(countAfter(answer.out, "particles: ") == doctest::Approx(216).epsilon(0.03));
     CHECK(contains(answer.out, "density 900 kg/m^3"));
     CHECK(contains(answer.out, "40 W at (0, 0.06, 0) m"));
     CHECK(contains(answer.out, "\n  radiation   on"));
@@ -323,7 +329,7 @@ TEST_CASE("run writes its report, its lines and its mesh") {
     CHECK(readFile(out + "/table.json") == readFile(folder.path("r.json")));
     const auto report = nlohmann::json::parse(readFile(folder.path("r.json")));
     CHECK(report["steps"] == 30);
-    CHECK(report["particles"]["count"] == 216);
+    CHECK(report["particles"]["count"].get<double>() == doctest::Approx(216).epsilon(0.03));
     CHECK(report["faults"].empty());
     CHECK(report["ledger"]["absorbed"].get<double>() > 0.0);
     CHECK(report["stepMilliseconds"]["p50"].get<double>() <= report["stepMilliseconds"]["p99"].get<double>());
@@ -371,9 +377,7 @@ TEST_CASE("melt makes a scene that runs again from its file to the same state") 
                     "--work", "2,4,12", "--threads", "1", "--save-scene", folder.path("cube.json"), "--quiet"});
         CAPTURE(first.err);
         REQUIRE(first.exitCode == 0);
-        const size_t at = first.out.find("particles ");
-        REQUIRE(at != std::string::npos);
-        CHECK(std::stod(first.out.substr(at + 9)) == doctest::Approx(1000).epsilon(0.03)); // 0.1 m in steps of 0.01 m
+        CHECK(countAfter(first.out, "particles ") == doctest::Approx(1000).epsilon(0.03)); // 0.1 m in steps of 0.01 m
         const Answer again = player(
             {"run", folder.path("cube.json"), "--seconds", "0.3", "--work", "2,4,12", "--threads", "1", "--quiet"});
         CAPTURE(again.err);
@@ -399,7 +403,7 @@ TEST_CASE("melt stands a mesh with z up on its feet") {
         CHECK(told.exitCode == 0);
         // Its lamp hangs at the height of the body and 0.3 of its size more.
         CHECK(contains(told.out, *up == 'z' ? "W at (0, 0.117, 0) m" : "W at (0, 0.057, 0) m"));
-        CHECK(contains(told.out, " 81 particles"));
+        CHECK(countAfter(told.out, "particles: ") == doctest::Approx(81).epsilon(0.06));
     }
 }
 

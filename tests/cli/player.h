@@ -36,7 +36,7 @@ size_t lineCount(const std::string& text);
 bool contains(const std::string& text, const std::string& part);
 std::string replaced(std::string text, const std::string& what, const std::string& with);
 
-// A small scene that runs: a box of wax of 216 particles over a floor, under a lamp.
+// A small scene that runs: a box of wax of about 216 particles over a floor, under a lamp.
 extern const char* const kSmallScene;
 
 } // namespace thaw::test
