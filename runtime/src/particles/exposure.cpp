@@ -23,20 +23,21 @@ namespace {
 
 constexpr int kBlock = 512;
 
+// One point of a piecewise linear function.
 struct Node {
-    float missing, area;
+    float at, value;
 };
 constexpr Node kArea[] = {{0.09f, 0.0f},   {0.12f, 0.578f}, {0.158f, 1.02f}, {0.2f, 1.262f},  {0.245f, 1.266f},
                           {0.293f, 1.70f}, {0.35f, 1.704f}, {0.405f, 2.83f}, {0.52f, 3.322f}, {0.692f, 4.836f}};
 
-float areaOf(float missing) {
-    if (missing <= kArea[0].missing) return 0;
-    for (size_t k = 1; k < std::size(kArea); ++k)
-        if (missing < kArea[k].missing) {
-            const Node &a = kArea[k - 1], &b = kArea[k];
-            return a.area + (b.area - a.area) * (missing - a.missing) / (b.missing - a.missing);
+template <size_t N> float interpolate(const Node (&nodes)[N], float at) {
+    if (at <= nodes[0].at) return nodes[0].value;
+    for (size_t k = 1; k < N; ++k)
+        if (at < nodes[k].at) {
+            const Node &a = nodes[k - 1], &b = nodes[k];
+            return a.value + (b.value - a.value) * (at - a.at) / (b.at - a.at);
         }
-    return kArea[std::size(kArea) - 1].area;
+    return nodes[N - 1].value;
 }
 
 // A lattice face at kSupport: missing share, and |sum V grad W / s0| times h.
@@ -48,21 +49,12 @@ constexpr float kSurelyBare = 0.28f;
 // Below, the surface faces nowhere: a drop alone, a film in the air.
 constexpr float kLeastDirection = 0.2f;
 
-// The same missing share by |sum V grad W| h / sum V W, which does not change when everything comes closer: the top layer of
-// a liquid sinks into the one below until its own density is that of the inside (pressure does not pull), a film on what
-// is solid by a third of a spacing, and the missing share alone would call it covered.
-constexpr Node kBySlope[] = {{0.0f, 0.0f}, {1.272f, 0.158f}, {1.803f, 0.293f}, {2.208f, 0.405f}, {4.0f, 0.405f}};
+// The same missing share by |sum V grad W| h / sum V W, which does not change when everything comes closer: the top
+// layer of a liquid sinks into the one below until its own density is that of the inside (pressure does not pull), a
+// film on what is solid by a third of a spacing, and the missing share alone would call it covered.
+constexpr Node kBySlope[] = {{0.0f, 0.0f}, {1.272f, 0.158f}, {1.803f, 0.293f}, {2.208f, 0.405f}};
 // How much denser than the lattice a particle may look before it counts: the steps of a tilted lattice.
 constexpr float kTolerated = 0.04f;
-
-float lookUp(const Node* nodes, size_t count, float at) {
-    for (size_t k = 1; k < count; ++k)
-        if (at < nodes[k].missing) {
-            const Node &a = nodes[k - 1], &b = nodes[k];
-            return a.area + (b.area - a.area) * (at - a.missing) / (b.missing - a.missing);
-        }
-    return nodes[count - 1].area;
-}
 
 // A wall in contact stands in for the layers of the lattice that it replaces, wherever between the standoff and one
 // spacing the particle rests: the density map, made for pressure, would call a particle at 0.3 spacings overfull.
@@ -77,8 +69,12 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
         Box around;
         float reach = 0;
         for (int i = begin; i < end; ++i) {
-            around.grow(particles.position[static_cast<size_t>(i)].xyz());
-            reach = std::max(reach, particles.position[static_cast<size_t>(i)].w);
+            const Vec4 x = particles.position[static_cast<size_t>(i)];
+            around.lower = {std::min(around.lower.x, x.x), std::min(around.lower.y, x.y),
+                            std::min(around.lower.z, x.z)};
+            around.upper = {std::max(around.upper.x, x.x), std::max(around.upper.y, x.y),
+                            std::max(around.upper.z, x.z)};
+            reach = std::max(reach, x.w);
         }
         // Colliders that may touch this block; more than fit are asked for every row.
         constexpr int kNear = 16;
@@ -98,6 +94,7 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
         }
         const int walls = everyCollider ? colliderCount : nearCount;
         int exposed = 0;
+        float lastVolume = 0, edge = 0; // most rows are of one size
         for (int i = begin; i < end; ++i) {
             const size_t k = static_cast<size_t>(i);
             const float h = particles.position[k].w;
@@ -105,25 +102,26 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
             Vec3 gradient = neighbors.gradientSum[k].xyz();
             particles.normal[k] = {};
             particles.flags[k] = static_cast<uint8_t>(particles.flags[k] & ~kSurface);
-            if (1 - share <= kArea[0].missing && length(gradient) * h < kLeastGradient) continue;
+            if (1 - share <= kArea[0].at && length(gradient) * h < kLeastGradient) continue;
             for (int w = 0; w < walls; ++w) {
                 const Collider& wall = colliders[everyCollider ? w : near[w]];
                 if (!wall.alive) continue;
                 Vec3 n;
                 const float a = contact(wall.distance(particles.position[k].xyz(), n) * (kSupport / h));
+                if (a == 0) continue;
                 // Divided, not added: the shares of bare sides multiply to a good approximation.
                 share /= 1 - kFaceMissing * a;
                 gradient = gradient - (kFaceGradient * a / h) * n;
             }
             const float steep = length(gradient) * h;
-            const float crowding = share / (1 - lookUp(kBySlope, std::size(kBySlope), steep / share));
+            const float crowding = share / (1 - interpolate(kBySlope, steep / share));
             const float missing = 1 - share / std::max(1.0f, crowding - kTolerated);
-            const float area = areaOf(missing);
+            const float area = interpolate(kArea, missing);
             if (!(area > 0) || (steep < kLeastGradient && missing < kSurelyBare)) continue;
-            const float r = detCbrt(volume[k]);
+            if (volume[k] != lastVolume) lastVolume = volume[k], edge = detCbrt(lastVolume);
             Vec4& normal = particles.normal[k];
             if (steep > kLeastDirection) normal.setXyz(normalizeOr(-gradient, {}));
-            normal.w = area * r * r;
+            normal.w = area * edge * edge;
             particles.flags[k] = static_cast<uint8_t>(particles.flags[k] | kSurface);
             ++exposed;
         }
