@@ -89,7 +89,7 @@ TEST_CASE("heat: an insulated cosine decays at the nominal rate") {
         // Backward Euler decays by 1 / (1 + x) a step instead of exp(-x).
         const double x = alpha * k * k * dt;
         const double expected = dt > 200 ? std::pow(1 + x, -steps) : std::exp(-x * steps);
-        CHECK(-std::log(a / norm) == doctest::Approx(-std::log(expected)).epsilon(0.02));
+        CHECK(-std::log(a / norm) == doctest::Approx(-std::log(expected)).epsilon(0.015));
         CHECK(std::abs(f.energy() - before) < 1e-12 * std::abs(before));
     }
 }
@@ -169,7 +169,7 @@ TEST_CASE("heat: the Stefan front in wax and in ice") {
 }
 
 TEST_CASE("heat: conduction never overshoots, at any time step") {
-    for (double dt : {1.0, 25.0, 60.0, 200.0, 300.0, 1e4, 1e7}) {
+    for (double dt : {1.0, 25.0, 35.0, 60.0, 200.0, 300.0, 1e4, 1e7}) {
         HeatFixture f(0.01f);
         f.addMaterial(HeatFixture::plain());
         thawMaterialDef melts = HeatFixture::plain();

@@ -285,6 +285,18 @@ TEST_CASE("visibility: the same answers as trying every sphere, through refits a
     v.setSpheres(spheres.data(), ids.data(), static_cast<int>(spheres.size()));
     CHECK(v.refits() == refits);
     CHECK(v.rebuilds() == rebuilds);
+    // The neighbourhood of the ray's beginning shades nothing, what is behind it does.
+    const Vec4 pair[2] = {{1, 0, 0, 0.2f}, {5, 0, 0, 0.2f}};
+    const uint32_t names[2] = {1, 2};
+    Ray near = between({0, 0, 0}, {3, 0, 0}), past = between({0, 0, 0}, {9, 0, 0});
+    for (float skip : {0.0f, 1.0f}) {
+        v.setSpheres(pair, names, 2);
+        near.skip = past.skip = skip;
+        bool nearBlocked = false, pastBlocked = false;
+        v.cast(&near, 1, &nearBlocked), v.cast(&past, 1, &pastBlocked);
+        CHECK(nearBlocked == (skip == 0));
+        CHECK(pastBlocked);
+    }
     v.setSpheres(nullptr, nullptr, 0);
     Ray ray = between({-3, -3, -3}, {3, 3, 3});
     bool blocked = true;
