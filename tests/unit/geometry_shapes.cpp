@@ -67,9 +67,9 @@ Quality measure(const thaw::CleanMesh& mesh, const std::vector<Vec3>& points, fl
         Vec3 a = mesh.vertices[mesh.indices[t]], b = mesh.vertices[mesh.indices[t + 1]],
              c = mesh.vertices[mesh.indices[t + 2]];
         float longest = std::max(thaw::length(b - a), std::max(thaw::length(c - a), thaw::length(c - b)));
-        int n = std::max(1, int(std::ceil(longest / (0.3f * spacing))));
+        int n = std::clamp(int(std::ceil(longest / (0.3f * spacing))), 1, 1000);
         for (int i = 0; i <= n; ++i)
-            for (int j = 0; i + j <= n; ++j) {
+            for (int j = 0; j <= n - i; ++j) {
                 Vec3 p = a + (float(i) / float(n)) * (b - a) + (float(j) / float(n)) * (c - a);
                 double nearest = 2.2;
                 forNear(p, [&](uint32_t, double r) { nearest = std::min(nearest, r); });

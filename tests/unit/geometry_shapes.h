@@ -50,7 +50,7 @@ inline Mesh tetrahedron() {
 // Two triangles per face, around the origin.
 inline Mesh box(Vec3 size) {
     Mesh m;
-    for (int i = 0; i < 8; ++i)
+    for (uint32_t i = 0; i < 8; ++i)
         m.vertex({(i & 1 ? 0.5f : -0.5f) * size.x, (i & 2 ? 0.5f : -0.5f) * size.y, (i & 4 ? 0.5f : -0.5f) * size.z});
     m.quad(0, 2, 3, 1), m.quad(4, 5, 7, 6), m.quad(0, 1, 5, 4), m.quad(2, 6, 7, 3), m.quad(0, 4, 6, 2),
         m.quad(1, 3, 7, 5);

@@ -472,7 +472,8 @@ struct Cleaner {
             const char* why = report.openEdges ? "open by" : "has no clear inside at";
             unsigned edgesOpen =
                 report.openEdges ? report.openEdges : report.nonManifoldEdges + report.inconsistentEdges;
-            if (empty || inside == 0)
+            // Twice as much unclear as clear space: a sheet, not a body with holes.
+            if (empty || inside == 0 || ambiguous > 2 * inside)
                 return fail(thawResult_badMesh, format("mesh is %s %u edges and encloses no volume", why, edgesOpen));
             // Share of unclear space: a cube without one of 12 triangles has 0.18, without a face 0.52, half a
             // sphere 1.0.

@@ -188,7 +188,8 @@ struct Filler {
                         // A plane at distance d cuts a cell of edge 1; across a diagonal it reaches further than 0.5.
                         float reach = 0.5f * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z));
                         float share = reach > 0.25f ? 0.5f + 0.5f * d / reach : d > 0 ? 1.0f : 0.0f;
-                        if (share > 0 && !(d < 1.5f && occupied(p)))
+                        if (d > 0.45f) share = 1; // a place for the outermost layer, also at an edge
+                        if (share > 0.02f && !(d < 1.5f && occupied(p)))
                             slabs[size_t(z)].push_back({p, std::min(share, 1.0f) - dither(x, y, z)});
                     }
         });
@@ -206,6 +207,9 @@ struct Filler {
         for (uint32_t i : order) points.push_back(all[i].p);
         makeMobility();
     }
+
+    // Of a point that is inside.
+    float exactDepth(Vec3 p) const { return std::sqrt(tree.nearest(center + spacing * p).distance2) / spacing; }
 
     // Gradient of the depth over 0.4 around p: where the nearest face changes (corners, edges) it points between the
     // faces.
@@ -396,7 +400,16 @@ struct Filler {
                 const Sample& sample = samples[size_t(i)];
                 Vec3 g, p = sink(sample.p - 0.02f * sample.normal, kCornerDepth);
                 float far = length(p - sample.p);
-                bool good = far > kSharp && far < 1.2f && depthAt(p, g) > 0.9f * kCornerDepth;
+                if (far > kSharp) { // the bricks round corners off: back toward the corner as far as it goes
+                    float in = 0, out = 1;
+                    for (int k = 0; k < 6; ++k) {
+                        float t = 0.5f * (in + out);
+                        (exactDepth(p + t * (sample.p - p)) >= kCornerDepth ? in : out) = t;
+                    }
+                    p = p + in * (sample.p - p);
+                    far = length(p - sample.p);
+                }
+                bool good = far > kSharp && far < 1.2f && exactDepth(p) > 0.9f * kCornerDepth && depthAt(p, g) > 0.1f;
                 places[size_t(i)] = {p, good ? int(far * 32) : -1};
             }
         });
@@ -443,7 +456,7 @@ struct Filler {
     bool perfect(const std::vector<Sample>& samples) const {
         for (Vec3 p : points) {
             Vec3 g;
-            if (depthAt(p, g) < kDepth - 0.05f) return false;
+            if (depthAt(p, g) < kDepth - 0.05f && exactDepth(p) < kDepth - 0.05f) return false;
         }
         Cells cells;
         cells.build(points, 1);
@@ -454,7 +467,9 @@ struct Filler {
     // One round over the surface points that have no particle within `reach`: the nearest particle is called, or one is
     // added. Returns how many there were.
     size_t cover(const std::vector<Sample>& samples, float reach) {
-        constexpr float kRoom = 0.8f; // an inserted particle is at least this far from all others
+        // An inserted particle is at least this far from all others. In a sheet that is thinner than two layers there
+        // is no room to push the others away to.
+        const float room = grid.cell < 0.499f * spacing ? 0.8f : 0.7f;
         Cells cells;
         cells.build(points, 1);
         std::vector<uint8_t> bare = findBare(samples, cells, reach);
@@ -495,7 +510,7 @@ struct Filler {
             Vec3 g, place = sink(samples[i].p - 0.05f * samples[i].normal, kCornerDepth);
             if (depthAt(place, g) < 0.02f) continue;
             uint32_t j = nearestTo(place, 2, distance);
-            if (j == kNone || distance >= kRoom) {
+            if (j == kNone || distance >= room) {
                 if (head.empty()) head.assign(cells.start.size() - 1, kNone);
                 uint32_t k = uint32_t(points.size());
                 size_t c = cells.cellOf(place);

@@ -18,7 +18,7 @@ public:
     TriangleTree(const std::vector<Vec3>& vertices, const std::vector<uint32_t>& indices);
 
     // Generalised winding number: 1 inside a closed outward mesh, 0 outside, between them near holes. Far groups of
-    // triangles enter by their dipole and quadrupole (Barill et al. 2018); error below 0.02.
+    // triangles enter by their dipole and quadrupole (Barill et al. 2018); error below 0.1.
     float winding(Vec3 q) const;
 
     struct Nearest {
