@@ -110,10 +110,11 @@ thawWork Governor::choose(const Needs& needs, float milliseconds, const thawWork
 }
 
 void Governor::learn(const Cost& c) {
-    // Fast up, slow down: a machine that became slow is noticed in two frames, one quick frame proves little.
+    // Fast up, slow down: a machine that became slow is noticed in two frames, one quick frame proves little. One frame
+    // that was interrupted proves as little, so no frame more than doubles what is expected.
     auto blend = [](float& estimate, float ms, double units) {
         if (units < 1 || !std::isfinite(ms)) return;
-        const float now = ms / static_cast<float>(units);
+        const float now = std::min(ms / static_cast<float>(units), 2 * estimate);
         estimate += (now > estimate ? 0.5f : 0.08f) * (now - estimate);
     };
     const double n = c.particles, m = static_cast<double>(c.movers) * c.subSteps;

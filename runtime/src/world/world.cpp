@@ -77,8 +77,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     }
     if (on(thawStage_exposure)) {
         auto t = timed(thawStage_exposure);
-        exposed_ = findExposure(particles, neighbors_, volume_.data(), colliders.data(),
-                                static_cast<int>(colliders.size()), tasks);
+        refreshExposure();
     }
 
     const bool heated = on(thawStage_radiation) || on(thawStage_conduction) || on(thawStage_loss);
@@ -188,7 +187,7 @@ Needs World::needs() const {
     n.particles = particles.count;
     // What was released or set since the last sort counts already.
     n.movers = counters_.moving;
-    n.exposed = steps_ == 0 || listsStale_ ? particles.count : exposed_;
+    n.exposed = exposed_;
     n.listsStale = listsStale_;
     for (const HeatSource& s : sources) n.sourceOn |= s.alive && s.enabled && s.power != 0;
     n.timeScaleZero = def.thermalTimeScale == 0;
@@ -200,14 +199,19 @@ Needs World::needs() const {
 
 bool World::heatDue(const thawWork& work) const { return steps_ % static_cast<uint64_t>(work.heatInterval) == 0; }
 
+int World::subStepsWanted(float dt) const {
+    constexpr int kMost = 16; // the range of thawWork::subSteps
+    return Motion::subStepsWanted(particles, dt, {def.gravity.x, def.gravity.y, def.gravity.z}, def.particleSpacing,
+                                  kMost, colliders.data(), static_cast<int>(colliders.size()));
+}
+
 thawPlan World::previewPlan(const thawBudget& budget) const {
     Needs n = needs();
     thawWork work = budget.work;
     float predicted = 0;
     if (budget.mode == thawBudget_milliseconds) {
         Governor governor = governor_; // choosing moves its memory; a preview must not
-        const int wanted = Motion::subStepsWanted(particles, 1.0f / 60, {def.gravity.x, def.gravity.y, def.gravity.z},
-                                                  def.particleSpacing, 16);
+        const int wanted = subStepsWanted(1.0f / 60);
         work = governor.choose(n, budget.milliseconds, budget.work, wanted, predicted);
     }
     n.heatDue = heatDue(work);
@@ -222,6 +226,11 @@ void World::refreshNeighbors() {
     fillMassArrays();
     neighbors_.weigh(particles, volume_.data(), invDensity_.data(), tasks);
     listsStale_ = false;
+}
+
+void World::refreshExposure() {
+    exposed_ = findExposure(particles, neighbors_, volume_.data(), colliders.data(), static_cast<int>(colliders.size()),
+                            tasks);
 }
 
 void World::fillMassArrays() {
@@ -384,8 +393,11 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     if (body.generation == 0) body.generation = 1;
     body.alive = true, body.userData = d.userData;
     index1 = static_cast<uint32_t>(slot) + 1;
-    listsStale_ = holdStale_ = true;
+    holdStale_ = true;
     stepsSinceRelabel_ = kRelabelInterval;
+    // Lists now and not in the first step: their memory is taken while the host loads, not while it plays.
+    refreshNeighbors();
+    refreshExposure();
     measure();
     return thawResult_ok;
 }

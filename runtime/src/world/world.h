@@ -82,7 +82,9 @@ private:
     };
     Needs needs() const;
     bool heatDue(const thawWork& work) const;
+    int subStepsWanted(float dt) const;
     void refreshNeighbors();
+    void refreshExposure();
     void fillMassArrays();
     MotionFrame motionFrame(float dt, int subSteps, const thawWork& work);
     HeatFrame heatFrame(double dt, const thawWork& work);
