@@ -16,17 +16,20 @@ using scene::oneLine;
 namespace {
 struct Options {
     std::string mesh, material = "wax", up = "y", saveScene;
-    double size = 0.1, power = 60.0, spacing = 0.0, timeScale = -1.0;
+    double size = 0.1, power = 0.0, spacing = 0.0, timeScale = -1.0;
     RunOptions run;
 };
 
 constexpr double kParticles = 11000.0; // what a 4 ms budget carries with room to spare
-constexpr double kMeltSeconds = 16.0;  // game time in which the heat taken up equals what melting all of it takes
+// W/m^2 of the body's size: 600 W over 0.1 m. Wax at its melting point loses 0.6 kW/m^2 to a room; under a lamp of 60 W
+// the lower half of a body of 0.1 m takes up less than that, and no time scale melts it.
+constexpr double kPowerPerSize2 = 6e4;
+constexpr double kMeltSeconds = 8.0; // game time in which all of it would melt if nothing were lost; losses take half
 
 // A scene around one mesh: it stands on a floor, a glowing ball hangs over its top.
 scene::Scene makeScene(const Options& o) {
     checkRange("--size", o.size, 0.001, 100.0, "m");
-    checkRange("--power", o.power, 0.01, 1e6, "W");
+    if (o.power != 0.0) checkRange("--power", o.power, 0.01, 1e6, "W");
     if (o.up != "y" && o.up != "z") throw InputError("--up: must be y or z, got '" + oneLine(o.up, 40) + "'");
     thawMaterialPreset preset = thawMaterial_presetCount;
     std::string known;
@@ -98,7 +101,8 @@ scene::Scene makeScene(const Options& o) {
     source.name = "lamp";
     const double above = 0.30 * reach;
     source.position = {0.0f, float(height + above), 0.0f};
-    source.power = float(o.power);
+    const double power = o.power != 0.0 ? o.power : std::min(kPowerPerSize2 * o.size * o.size, 1e6);
+    source.power = float(power);
     source.radius = float(0.05 * reach);
     source.visual = scene::SourceVisual::glow;
     s.heatSources.push_back(source);
@@ -116,7 +120,7 @@ scene::Scene makeScene(const Options& o) {
     else if (o.timeScale != -1.0)
         throw InputError("--time-scale: must be in 0..100000");
     s.world.thermalTimeScale =
-        float(o.timeScale >= 0.0 ? o.timeScale : std::clamp(joules / (o.power * share * kMeltSeconds), 1.0, 1e5));
+        float(o.timeScale >= 0.0 ? o.timeScale : std::clamp(joules / (power * share * kMeltSeconds), 1.0, 1e5));
 
     scene::Collider floor;
     floor.name = "floor";
@@ -166,7 +170,8 @@ void addMelt(CLI::App& app, int& exitCode) {
     command->add_option("--material", o->material, "wax, chocolate, butter, ice or icecream")->capture_default_str();
     command->add_option("--size", o->size, "Largest dimension of the body, m")->capture_default_str();
     command->add_option("--up", o->up, "Axis of the file that points up: y or z")->capture_default_str();
-    command->add_option("--power", o->power, "Power of the lamp, W")->capture_default_str();
+    command->add_option("--power", o->power,
+                        "Power of the lamp, W (default: 600 for 0.1 m, with the square of the size)");
     command->add_option("--spacing", o->spacing, "Distance of particles, m (default: so that about 11000 result)");
     command->add_option("--time-scale", o->timeScale,
                         "Seconds of heat in a second of motion (default: so that most melts in 20 to 30 s)");

@@ -105,7 +105,8 @@ Pictures::Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, 
         if (!h.enabled || h.visual == scene::SourceVisual::none) continue;
         view::Glow glow;
         glow.position = h.position;
-        glow.power = h.power;
+        glow.power =
+            std::min(h.power, 30.0f); // a heat lamp of 600 W is mostly infrared: as light it would burn the picture out
         glow.radius = h.radius;
         glow.shape = h.visual == scene::SourceVisual::flame ? view::GlowShape::flame : view::GlowShape::ball;
         s.scene.glows.push_back(glow);

@@ -151,7 +151,7 @@ int runScene(const scene::Scene& scene, const RunOptions& o) {
             const int due = o.pictures == 1 ? frames : int(int64_t(frames) * nextPicture / (o.pictures - 1));
             if (due > done) return;
             const std::string caption =
-                formatted("t = %.2f s   melted %.1f %%   p95 %.2f ms", done * kFrameSeconds,
+                formatted("%.1f s, melted %.0f %%, p95 %.1f ms", done * kFrameSeconds,
                           100.0 * double(report.counters().meltedFraction), report.percentile(0.95));
             pictures->take(world, view, caption, within(o.out, formatted("picture_%03d.png", nextPicture)));
             ++nextPicture;
