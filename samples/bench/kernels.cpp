@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "bench/kernels.h"
+#include "bench_registry.h"
+
+namespace {
+const thaw::player::BenchRegistration kKernels("kernels", "Nanoseconds a particle of the passes of a frame",
+                                               thawBenchKernels);
+} // namespace
