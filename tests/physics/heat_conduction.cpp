@@ -64,7 +64,7 @@ TEST_CASE("heat: slab with both faces held follows the series") {
             for (size_t i = 0; i < f.size(); ++i)
                 if (f.layerOf(i) == layer) sum += f.particles.temperature[i] - 100, ++n;
             const double x = (layer - f.held + 1) * 0.01 / length;
-            CHECK(sum / n == doctest::Approx(slab(x, now)).epsilon(0.02));
+            CHECK(sum / n == doctest::Approx(slab(x, now)).epsilon(0.02).scale(0));
         }
     }
 }
@@ -89,7 +89,7 @@ TEST_CASE("heat: an insulated cosine decays at the nominal rate") {
         // Backward Euler decays by 1 / (1 + x) a step instead of exp(-x).
         const double x = alpha * k * k * dt;
         const double expected = dt > 200 ? std::pow(1 + x, -steps) : std::exp(-x * steps);
-        CHECK(-std::log(a / norm) == doctest::Approx(-std::log(expected)).epsilon(0.015));
+        CHECK(-std::log(a / norm) == doctest::Approx(-std::log(expected)).epsilon(0.015).scale(0));
         CHECK(std::abs(f.energy() - before) < 1e-12 * std::abs(before));
     }
 }
@@ -124,7 +124,7 @@ TEST_CASE("heat: two half-spaces in contact take the temperature between their e
         }
         CHECK(worst < 3); // of 100 K
         const double exact = 2 * e1 * (400 - contact) * std::sqrt(t / kPi) * 25 * 1e-4;
-        CHECK(passed == doctest::Approx(exact).epsilon(0.03));
+        CHECK(passed == doctest::Approx(exact).epsilon(0.03).scale(0));
     }
 }
 
@@ -163,13 +163,13 @@ TEST_CASE("heat: the Stefan front in wax and in ice") {
                 if (f.layerOf(i) >= f.held) molten += static_cast<double>(f.particles.liquidFraction[i]);
             const double front = (0.5 + molten / 36) * 1e-3;
             CAPTURE(depth);
-            CHECK(front == doctest::Approx(2 * c.lambda * std::sqrt(alpha * t)).epsilon(0.05));
+            CHECK(front == doctest::Approx(2 * c.lambda * std::sqrt(alpha * t)).epsilon(0.05).scale(0));
         }
     }
 }
 
 TEST_CASE("heat: conduction never overshoots, at any time step") {
-    for (double dt : {1.0, 25.0, 35.0, 60.0, 200.0, 300.0, 1e4, 1e7}) {
+    for (double dt : {1.0, 9.0, 12.0, 14.0, 17.0, 25.0, 60.0, 200.0, 300.0, 1e4, 1e7}) {
         HeatFixture f(0.01f);
         f.addMaterial(HeatFixture::plain());
         thawMaterialDef melts = HeatFixture::plain();

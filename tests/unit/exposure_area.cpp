@@ -34,7 +34,7 @@ TEST_CASE("exposure: the areas of a cube add up") {
         f.addBlock({0, 0, 0}, n, n, n, room);
         f.build();
         CAPTURE(n);
-        CHECK(f.area() / (6.0 * n * n * unit(f)) == doctest::Approx(1).epsilon(0.05));
+        CHECK(f.area() / (6.0 * n * n * unit(f)) == doctest::Approx(1).epsilon(0.05).scale(0));
         CHECK(f.exposed == n * n * n - (n - 2) * (n - 2) * (n - 2));
         for (size_t i = 0; i < f.size(); ++i) {
             const Vec4 p = f.particles.position[i];
@@ -45,7 +45,7 @@ TEST_CASE("exposure: the areas of a cube add up") {
             if (inside)
                 REQUIRE((s.x == 0 && s.y == 0 && s.z == 0 && s.w == 0));
             else
-                REQUIRE(length(s.xyz()) == doctest::Approx(1).epsilon(1e-5));
+                REQUIRE(length(s.xyz()) == doctest::Approx(1).epsilon(1e-5).scale(0));
         }
     }
 }
@@ -56,7 +56,7 @@ TEST_CASE("exposure: the areas of a ball add up") {
         f.addBall({0, 0, 0}, radius * f.spacing, 293.15f);
         f.build();
         CAPTURE(radius);
-        CHECK(f.area() / (4 * kPi * radius * radius * unit(f)) == doctest::Approx(1).epsilon(0.05));
+        CHECK(f.area() / (4 * kPi * radius * radius * unit(f)) == doctest::Approx(1).epsilon(0.05).scale(0));
         // Outward, within the disorder of the shells.
         for (size_t i = 0; i < f.size(); ++i) {
             if (!(f.particles.flags[i] & kSurface)) continue;
@@ -77,7 +77,7 @@ TEST_CASE("exposure: the areas of a ball cut out of a lattice add up") {
             CAPTURE(offset.x);
             // The ball of as many cells.
             const double r = std::cbrt(f.particles.count * 3 / (4 * kPi));
-            CHECK(f.area() / (4 * kPi * r * r * unit(f)) == doctest::Approx(1).epsilon(0.05));
+            CHECK(f.area() / (4 * kPi * r * r * unit(f)) == doctest::Approx(1).epsilon(0.05).scale(0));
         }
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("exposure: a block at any angle to its lattice") {
             }
     f.build();
     const double side = std::cbrt(f.particles.count);
-    CHECK(f.area() / (6 * side * side * unit(f)) == doctest::Approx(1).epsilon(0.05));
+    CHECK(f.area() / (6 * side * side * unit(f)) == doctest::Approx(1).epsilon(0.05).scale(0));
 }
 
 TEST_CASE("exposure: drops, films and threads") {
@@ -102,20 +102,20 @@ TEST_CASE("exposure: drops, films and threads") {
     drop.add({0, 0, 0}, 293.15f);
     drop.build();
     // The sphere of its volume.
-    CHECK(drop.area() / unit(drop) == doctest::Approx(std::cbrt(36 * kPi)).epsilon(0.01));
+    CHECK(drop.area() / unit(drop) == doctest::Approx(std::cbrt(36 * kPi)).epsilon(0.01).scale(0));
     CHECK(length(drop.particles.normal[0].xyz()) == 0);
     for (int layers : {1, 2}) {
         HeatFixture film;
         film.addBlock({0, 0, 0}, 30, 30, layers, room);
         film.build();
         CAPTURE(layers);
-        CHECK(film.area() / (2 * 900 * unit(film)) == doctest::Approx(1).epsilon(0.15));
+        CHECK(film.area() / (2 * 900 * unit(film)) == doctest::Approx(1).epsilon(0.15).scale(0));
         CHECK(film.exposed == 900 * layers);
     }
     HeatFixture thread;
     thread.addBlock({0, 0, 0}, 40, 1, 1, room);
     thread.build();
-    CHECK(thread.area() / (40 * 2 * std::sqrt(kPi) * unit(thread)) == doctest::Approx(1).epsilon(0.15));
+    CHECK(thread.area() / (40 * 2 * std::sqrt(kPi) * unit(thread)) == doctest::Approx(1).epsilon(0.15).scale(0));
 }
 
 TEST_CASE("exposure: what rests on a floor is not exposed to it") {
@@ -127,11 +127,15 @@ TEST_CASE("exposure: what rests on a floor is not exposed to it") {
         f.addBlock({0, (height - 0.5f) * f.spacing, 0}, 12, 8, 12, room);
         f.build();
         CAPTURE(height);
-        CHECK(f.area() / ((144 + 4 * 96) * unit(f)) == doctest::Approx(1).epsilon(0.04));
+        CHECK(f.area() / ((144 + 4 * 96) * unit(f)) == doctest::Approx(1).epsilon(0.06).scale(0));
         for (size_t i = 0; i < f.size(); ++i) {
             const Vec4 p = f.particles.position[i];
             const auto inner = [&](float x) { return x > f.spacing && x < 11 * f.spacing; };
             if (p.y < f.spacing && inner(p.x) && inner(p.z)) REQUIRE_FALSE((f.particles.flags[i] & kSurface));
+            // Along the foot only the side is bare.
+            if (p.y < f.spacing && inner(p.x) != inner(p.z))
+                REQUIRE(static_cast<double>(f.particles.normal[i].w) / unit(f) ==
+                        doctest::Approx(1).epsilon(0.1).scale(0));
         }
     }
     // And is exposed again when it hangs above it.
@@ -141,7 +145,7 @@ TEST_CASE("exposure: what rests on a floor is not exposed to it") {
     f.colliders.push_back(floor);
     f.addBlock({0, 1.2f * f.spacing, 0}, 12, 8, 12, room);
     f.build();
-    CHECK(f.area() / ((2 * 144 + 4 * 96) * unit(f)) == doctest::Approx(1).epsilon(0.05));
+    CHECK(f.area() / ((2 * 144 + 4 * 96) * unit(f)) == doctest::Approx(1).epsilon(0.05).scale(0));
 }
 
 TEST_CASE("exposure: fixed or moving makes no difference") {
@@ -150,5 +154,5 @@ TEST_CASE("exposure: fixed or moving makes no difference") {
     b.addBlock({0, 0, 0}, 10, 10, 10, room);
     a.build(0), b.build(3);
     CHECK(a.exposed == b.exposed);
-    CHECK(a.area() == doctest::Approx(b.area()).epsilon(1e-6));
+    CHECK(a.area() == doctest::Approx(b.area()).epsilon(1e-6).scale(0));
 }

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <initializer_list>
 
 using namespace thaw;
@@ -32,7 +33,7 @@ TEST_CASE("material: temperature and enthalpy are inverse, and both rise") {
             const double H = m.enthalpy(T);
             REQUIRE(H > last);
             last = H;
-            REQUIRE(m.kelvin(H) == doctest::Approx(T).epsilon(1e-9));
+            REQUIRE(std::abs(m.kelvin(H) - static_cast<double>(T)) < 1e-6);
         }
         // Temperature never falls with enthalpy, across both corners.
         double before = 0;
@@ -55,7 +56,7 @@ TEST_CASE("material: the heat between solidus and liquidus") {
     CHECK(m.liquidFraction(0.25 * m.latent) == doctest::Approx(0.25));
     CHECK(m.conductivity(0.5f) == doctest::Approx(0.195f));
     // Log blend.
-    CHECK(m.viscosity(0.5f) == doctest::Approx(10).epsilon(1e-4));
-    CHECK(m.viscosity(0) == doctest::Approx(1e4).epsilon(1e-4));
-    CHECK(m.viscosity(1) == doctest::Approx(0.01).epsilon(1e-4));
+    CHECK(m.viscosity(0.5f) == doctest::Approx(10).epsilon(1e-4).scale(0));
+    CHECK(m.viscosity(0) == doctest::Approx(1e4).epsilon(1e-4).scale(0));
+    CHECK(m.viscosity(1) == doctest::Approx(0.01).epsilon(1e-4).scale(0));
 }

@@ -32,12 +32,14 @@ constexpr int kSubCycles = 8;
 constexpr int kImplicitIterations = 30;
 constexpr double kImplicitTolerance = 1e-3;
 
-// Particles::irradiance remembers, from the last time rays were cast for a particle, how much of its sources' light
-// came through and how long ago that is: 2 (1 + age) + share; 0 when nothing is known.
-float remember(int age, float share) { return 2.0f * static_cast<float>(1 + age) + share; }
-bool known(float memory) { return memory >= 2; }
-int ageOf(float memory) { return static_cast<int>(0.5f * memory) - 1; }
-float shareOf(float memory) { return memory - remember(ageOf(memory), 0); }
+// Particles::irradiance remembers, from the last time rays were cast for a particle, which of the first kRemembered
+// sources it saw and how long ago that is: (1 + age) 2^16 + one bit per source, a whole number below 2^22 and so exact
+// in a float; 0 when nothing is known. Rays to the sources beyond are cast in every step.
+constexpr int kRemembered = 16;
+float remember(int age, uint32_t seen) { return static_cast<float>((static_cast<uint32_t>(1 + age) << 16) | seen); }
+bool known(float memory) { return memory >= 65536; }
+int ageOf(float memory) { return static_cast<int>(static_cast<uint32_t>(memory) >> 16) - 1; }
+uint32_t seenOf(float memory) { return static_cast<uint32_t>(memory) & 0xffffu; }
 constexpr int kOldest = 60;
 // What moves is looked at this many times as often as what stands still.
 constexpr int kMoverAge = 3;
@@ -243,13 +245,16 @@ void Heat::radiation(const HeatFrame& f) {
     }
     stats_.raysReduced = refreshed < lit;
 
-    if (refreshed > 0) {
+    bool beyond = false;
+    for (int s = kRemembered; s < f.sourceCount; ++s) beyond |= shines(f.sources[s]);
+    if (refreshed > 0 || (beyond && lit > 0)) {
         if (!m.visibility) m.visibility = std::make_unique<Visibility>(m.allocator);
         m.visibility->setColliders(f.colliders, f.colliderCount, f.colliderVersion);
         m.visibility->setSpheres(m.spheres.data(), m.sphereIds.data(), exposed);
     }
     f.tasks.forBlocks(exposed, kRayBlock, [&](int begin, int end, int block, int) {
-        float free[kRayBlock] = {}, seen[kRayBlock] = {}, size[kRayBlock] = {}, sizeSeen[kRayBlock] = {};
+        float received[kRayBlock] = {};
+        uint32_t seen[kRayBlock] = {};
         int rays = 0;
         for (int s = 0; s < f.sourceCount; ++s) {
             if (!shines(f.sources[s])) continue;
@@ -259,18 +264,25 @@ void Heat::radiation(const HeatFrame& f) {
             const auto flush = [&] {
                 bool blocked[8];
                 m.visibility->cast(packet, n, blocked);
-                for (int k = 0; k < n; ++k)
-                    if (!blocked[k]) seen[owner[k]] += flux[k], sizeSeen[owner[k]] += std::abs(flux[k]);
+                for (int k = 0; k < n; ++k) {
+                    if (blocked[k]) continue;
+                    received[owner[k]] += flux[k];
+                    if (s < kRemembered) seen[owner[k]] |= 1u << s;
+                }
                 rays += n, n = 0;
             };
             for (int e = begin; e < end; ++e) {
                 const size_t at = static_cast<size_t>(e);
                 if (m.priority[at] == kNoRay) continue;
                 const size_t row = static_cast<size_t>(m.exposed[at]);
+                const bool fresh = m.priority[at] == kUnknown || s >= kRemembered;
+                if (!fresh && !(seenOf(p.irradiance[row]) >> s & 1)) continue;
                 const View v = look(f.sources[s], p.position[row].xyz(), p.normal[row], spacingOf(row));
                 if (v.flux == 0) continue;
-                free[e - begin] += v.flux, size[e - begin] += std::abs(v.flux);
-                if (m.priority[at] != kUnknown) continue;
+                if (!fresh) {
+                    received[e - begin] += v.flux;
+                    continue;
+                }
                 packet[n] = v.ray, flux[n] = v.flux, owner[n] = e - begin;
                 if (++n == 8) flush();
             }
@@ -279,18 +291,15 @@ void Heat::radiation(const HeatFrame& f) {
         for (int e = begin; e < end; ++e) {
             const size_t at = static_cast<size_t>(e), row = static_cast<size_t>(m.exposed[at]);
             float& memory = p.irradiance[row];
-            float flux = 0;
-            if (m.priority[at] == kNoRay) {
+            if (m.priority[at] == kNoRay)
                 memory = 0;
-            } else if (m.priority[at] == kUnknown) {
-                flux = seen[e - begin];
-                memory = remember(0, sizeSeen[e - begin] / size[e - begin]);
-            } else {
-                const float share = shareOf(memory);
-                flux = share * free[e - begin];
-                memory = remember(std::min(kOldest, ageOf(memory) + (p.fixed(m.exposed[at]) ? 1 : kMoverAge)), share);
+            else if (m.priority[at] == kUnknown)
+                memory = remember(0, seen[e - begin]);
+            else {
+                const int age = ageOf(memory) + (p.fixed(m.exposed[at]) ? 1 : kMoverAge);
+                memory = remember(std::min(kOldest, age), seenOf(memory));
             }
-            m.power[row] = flux * f.materials[p.material[row]].def.absorptivity * p.normal[row].w;
+            m.power[row] = received[e - begin] * f.materials[p.material[row]].def.absorptivity * p.normal[row].w;
         }
         m.blockRays[static_cast<size_t>(block)] = rays;
     });

@@ -27,8 +27,9 @@ enum ParticleFlag : uint8_t {
     X(float, liquidFraction) /* 0..1, from enthalpy */                                                                 \
     X(float, pressure)       /* Pa, warm start of the next step */                                                     \
     X(float, stiffness)      /* Jacobi coefficient of the last step, 0 when there was none */                          \
-    X(float, irradiance) /* memory of the last rays: 2 (1 + age) + share of the light that came through, 0 unknown */  \
-    X(uint32_t, id)      /* stable, never reused */                                                                    \
+    X(float,                                                                                                           \
+      irradiance)   /* memory of the last rays, see heat.cpp: age, and one bit per source that was seen; 0 unknown */  \
+    X(uint32_t, id) /* stable, never reused */                                                                         \
     X(uint16_t, body)                                                                                                  \
     X(uint8_t, material)                                                                                               \
     X(uint8_t, level) /* mass 2^level of the finest */                                                                 \
