@@ -208,3 +208,19 @@ TEST_CASE("heat: conduction never overshoots, at any time step") {
         if (dt >= 1e7) CHECK(high < 345); // all but even
     }
 }
+
+TEST_CASE("heat: a hot spot never leaves its neighbours colder than before, around the explicit limit") {
+    for (double dt = 12; dt < 60; dt += 4) {
+        HeatFixture f(0.01f);
+        f.addBlock({0, 0, 0}, 9, 9, 9, [](Vec3) { return 290.0f; });
+        f.build();
+        for (size_t i = 0; i < f.size(); ++i)
+            if (length(f.particles.position[i].xyz() - Vec3{0.045f, 0.045f, 0.045f}) < 0.005f)
+                f.setTemperature(i, 1000);
+        CAPTURE(dt);
+        for (int s = 0; s < 4; ++s) {
+            f.step(dt, HeatFixture::kConduction);
+            for (size_t i = 0; i < f.size(); ++i) REQUIRE(f.particles.temperature[i] >= 290 - 1e-3f);
+        }
+    }
+}
