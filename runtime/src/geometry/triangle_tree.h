@@ -39,9 +39,14 @@ private:
     struct Triangle {
         Vec3 a, b, c;
     };
-    struct Node { // boxes of both children, and what they are: leaf bit, first triangle << 3 | count, or the node
-        Vec3 lower[2], upper[2];
+    // Boxes of both children side by side, {lower, lower, -upper, -upper} per axis, so that both distances come from
+    // one walk through a vector; and what they are: leaf bit and first triangle << 3 | count, or the number of the
+    // node.
+    struct alignas(16) Node {
+        float x[4], y[4], z[4];
         uint32_t child[2];
+        void setBox(int side, const Box& box);
+        Box box(int side) const;
     };
     struct Moments { // of one child
         Vec3 center;
