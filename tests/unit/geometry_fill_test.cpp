@@ -106,6 +106,15 @@ TEST_CASE("wicks and sheets under one spacing get a line and a layer") {
     CHECK(q.minPair >= 0.75);
 }
 
+TEST_CASE("what is too thin for particles is said") {
+    shapes::Mesh mesh = shapes::box({10, 10, 10});
+    CHECK(fill(mesh, 1).message.empty());
+    mesh.append(shapes::box({20, 0.01f, 8}));
+    Filled f = fill(mesh, 1);
+    REQUIRE(f.result == thawResult_ok);
+    CHECK(f.message.find("too thin") != std::string::npos);
+}
+
 TEST_CASE("holes are filled over") {
     shapes::Mesh mesh = shapes::icosphere(8, 4);
     mesh.indices.resize(mesh.indices.size() - 3 * 40); // of 5120

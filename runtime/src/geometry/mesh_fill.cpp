@@ -605,6 +605,13 @@ thawResult fillMesh(const CleanMesh& mesh, float spacing, int maxParticles, Task
         return thawResult_badMesh;
     }
     if (fill.points.size() > size_t(std::max(maxParticles, 0))) return tooMany(double(fill.points.size()));
+    Cells cells;
+    cells.build(fill.points, 1);
+    std::vector<uint8_t> bare = fill.findBare(samples, cells, 1.5f);
+    double thin = double(std::count(bare.begin(), bare.end(), uint8_t(1))) / double(std::max<size_t>(bare.size(), 1));
+    if (thin > 0)
+        message = number("%.2g %% of the surface belongs to parts that are too thin to hold a particle at spacing %g m",
+                         100 * thin, double(spacing));
     for (Vec3 p : fill.points) out.push_back(fill.center + spacing * p);
     particleVolume = float(volume / double(out.size()));
     return thawResult_ok;

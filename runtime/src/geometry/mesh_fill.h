@@ -41,11 +41,14 @@ struct DistanceGrid {
 // Grid that covers the bounds grown by `margin`. cell is enlarged when it would need more than maxNodes nodes.
 DistanceGrid makeDistanceGrid(const CleanMesh& mesh, float cell, float margin, size_t maxNodes, Tasks& tasks);
 
-// Positions that fill the inside at `spacing`: a body-centred or cubic lattice inside, the outermost layer moved so
-// that it lies spacing/2 below the surface (checked: within half a spacing everywhere), relaxed so that no two are
-// closer than 0.75 spacing. Total volume follows: each particle's volume is mesh volume / count (returned).
-// Deterministic. Refuses (badMesh) when nothing fits, naming volume and spacing; (capacity) when more than maxParticles
-// are needed, naming both.
+// Positions that fill the inside at `spacing`, about volume / spacing^3 of them: a cubic lattice inside, the outer four
+// layers relaxed so that the outermost lies spacing/2 below the surface (0.3 at least, less only where the part is
+// thinner than that) and no two are closer than 0.75 spacing. Surface points have a particle within about one spacing.
+// Parts thinner than a spacing get a line or a layer, which may take more particles than their volume asks for. Each
+// particle's volume is mesh volume / count (returned). Deterministic at any number of workers. On success `message` is
+// empty, or says how much of the surface belongs to parts that are too thin for any particle. Refuses (badMesh) when
+// nothing fits, naming volume and spacing; (capacity) when more than maxParticles are needed, naming both, or when the
+// mesh is so large that looking through its box would take more than 2^27 bricks.
 thawResult fillMesh(const CleanMesh& mesh, float spacing, int maxParticles, Tasks& tasks, std::vector<Vec3>& out,
                     float& particleVolume, std::string& message);
 
