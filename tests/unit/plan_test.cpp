@@ -79,6 +79,10 @@ TEST_CASE("plan: stages run only where the scene asks, and say why not") {
     CHECK(p.reason[thawStage_loss] == thawReason_equilibrium);
     CHECK_FALSE(p.enabled[thawStage_phase]);
     CHECK_FALSE(p.enabled[thawStage_stats]);
+    n.holdStale = true;
+    p = makePlan(n, kFull);
+    CHECK(p.enabled[thawStage_phase]);
+    CHECK_FALSE(p.enabled[thawStage_neighbors]);
 
     n = busy();
     n.heatDue = false;

@@ -9,17 +9,16 @@ namespace {
 
 // Touching: the 18 nearest of a cubic lattice (1.41 spacings) are links, the 8 body diagonals (1.73) are not.
 constexpr float kLink = 1.5f;
-// A drop that sets must lie against what holds it.
-constexpr float kTouch = 1.25f;
-// A lattice filled to a wall stands half a spacing off it.
-constexpr float kWallTouch = 0.8f;
+// What sets lies against something: a neighbour of the lattice, or a wall that it stands half a spacing off.
+constexpr float kTouch = 1.25f, kWallTouch = 0.8f;
+// What has come to rest sets from farther away: as stiff as it is by then, the drag of wall and neighbours stops it
+// short.
+constexpr float kRestTouch = 1.75f, kRestWallTouch = 1.5f;
 constexpr float kAnchor = 1.0f;
-// Nothing sets in flight: slower than this share of its spacing in a step.
-constexpr float kSlow = 0.3f;
-// A region this large that turns liquid at once would collapse; it starts stiff and softens (measured: 137 %
-// compression without, 15 % with a factor of 1e3 that fades by 0.8 a step).
+// In spacings a step. Nothing sets in flight.
+constexpr float kSlow = 0.3f, kRest = 1e-3f;
+// Share of all particles that is a large region when it lets go in one step.
 constexpr float kLargeRegion = 0.01f;
-constexpr float kStiffStart = 1e3f;
 // Pressure that a setting particle carried goes away over some frames: taken at once, its neighbours fall for a frame.
 constexpr float kPressureFade = 0.81f;
 
@@ -58,13 +57,15 @@ HoldResult Hold::update(const HoldFrame& f) {
         }
         if (phi >= m.def.setFraction) continue;
         const float spacing = p.position[i].w / kSupport;
-        if (length(p.velocity[i].xyz()) * f.dt > kSlow * spacing) continue;
+        const float moved = length(p.velocity[i].xyz()) * f.dt;
+        if (moved > kSlow * spacing) continue;
+        const bool rests = moved < kRest * spacing;
         const Vec3 x = p.position[i].xyz();
-        bool touches = nearCollider(f, x, kWallTouch * spacing);
+        bool touches = nearCollider(f, x, (rests ? kRestWallTouch : kWallTouch) * spacing);
         if (!touches)
             forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
                 if (j >= n || !(p.flags[j] & kFixed)) return true;
-                float reach = kTouch * 0.5f * (spacing + p.position[j].w / kSupport);
+                const float reach = (rests ? kRestTouch : kTouch) * 0.5f * (spacing + p.position[j].w / kSupport);
                 Vec3 d = p.position[j].xyz() - x;
                 touches = dot(d, d) < reach * reach;
                 return !touches;

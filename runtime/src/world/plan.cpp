@@ -34,13 +34,12 @@ thawPlan makePlan(const Needs& n, const thawWork& work) {
          n.awayFromAmbient ? thawReason_nothingExposed : thawReason_equilibrium);
     const bool heated =
         plan.enabled[thawStage_radiation] || plan.enabled[thawStage_conduction] || plan.enabled[thawStage_loss];
-    // New lists may hold a piece that nothing carries any more, so holding is looked at then too.
-    set(thawStage_phase, any && (heated || n.listsStale), any ? thawReason_nothingChanged : thawReason_noParticles);
+    const bool moved = n.listsStale || n.holdStale || n.movers > 0;
+    set(thawStage_phase, any && (heated || moved), any ? thawReason_nothingChanged : thawReason_noParticles);
 
     for (thawStage s : {thawStage_forces, thawStage_viscosity, thawStage_pressure, thawStage_collision})
         set(s, n.movers > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
-    set(thawStage_stats, any && (heated || n.listsStale || n.movers > 0),
-        any ? thawReason_nothingChanged : thawReason_noParticles);
+    set(thawStage_stats, any && (heated || moved), any ? thawReason_nothingChanged : thawReason_noParticles);
     return plan;
 }
 

@@ -12,6 +12,7 @@ namespace thaw {
 struct Needs {
     int particles = 0, movers = 0, exposed = 0;
     bool listsStale = true; // something moved, changed hold, came or went since the lists were built
+    bool holdStale = false; // pieces may have lost what held them
     bool sourceOn = false;  // an enabled source with power
     bool timeScaleZero = false;
     bool unequal = true;         // temperatures differ within the melt

@@ -54,8 +54,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     const Clock::time_point start = Clock::now();
     profile = {};
     uint32_t status = thawStep_ok;
-    const int wanted =
-        Motion::subStepsWanted(particles, dt, {def.gravity.x, def.gravity.y, def.gravity.z}, def.particleSpacing, 16);
+    const int wanted = subStepsWanted(dt);
     // What this frame runs: the host's work units, or the governor's choice within a budget of milliseconds.
     thawWork work = budget.work;
     float predicted = 0;
@@ -189,6 +188,7 @@ Needs World::needs() const {
     n.movers = counters_.moving;
     n.exposed = exposed_;
     n.listsStale = listsStale_;
+    n.holdStale = holdStale_;
     for (const HeatSource& s : sources) n.sourceOn |= s.alive && s.enabled && s.power != 0;
     n.timeScaleZero = def.thermalTimeScale == 0;
     n.unequal = maxTemperature_ - minTemperature_ > kEqualTemperature;
@@ -369,6 +369,12 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     const double H = m.enthalpy(temperature);
     const float phi = m.liquidFraction(H);
     const float mass = volume * m.def.density;
+    // What is liquid from the start carries the pressure of its depth: without it, it falls into itself for a third of
+    // a second (36 % mean compression at the worst, 19 % with it).
+    const bool liquid = phi >= m.def.releaseFraction;
+    const Vec3 gravity{def.gravity.x, def.gravity.y, def.gravity.z};
+    float top = INFINITY;
+    for (const Vec3& x : points) top = std::min(top, dot(x, gravity));
     for (const Vec3& x : points) {
         const size_t k = static_cast<size_t>(particles.count++);
 #define X(type, name) particles.name[k] = type{};
@@ -376,14 +382,15 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
 #undef X
         particles.position[k] = {x.x, x.y, x.z, kSupport * def.particleSpacing};
         particles.velocity[k] = {0, 0, 0, mass};
-        particles.velocityChange[k] = {0, 0, 0, 1};
+        particles.velocityChange[k] = {0, 0, 0, liquid ? kStiffStart : 1.0f};
+        particles.pressure[k] = liquid ? m.def.density * (dot(x, gravity) - top) : 0.0f;
         particles.enthalpy[k] = H;
         particles.temperature[k] = m.temperature(H);
         particles.liquidFraction[k] = phi;
         particles.id[k] = nextId_++;
         particles.body[k] = static_cast<uint16_t>(slot);
         particles.material[k] = static_cast<uint8_t>(material);
-        particles.flags[k] = phi < m.def.releaseFraction ? kFixed : 0;
+        particles.flags[k] = liquid ? 0 : kFixed;
         massAdded_ += mass;
         energyAdded_ += static_cast<double>(mass) * H;
     }
