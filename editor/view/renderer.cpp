@@ -470,6 +470,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         const Bounds b = transformed(meshes[i]->bounds, scene.meshes[i]);
         if (melt.empty() || b.radius() < 3 * melt.radius()) bounds.add(b);
     }
+    if (!scene.stage.empty()) bounds = scene.stage;
     if (bounds.empty()) bounds.add(Vec3{-0.1f, 0, -0.1f}), bounds.add(Vec3{0.1f, 0.2f, 0.1f});
     const float radius = std::max(bounds.radius(), 1e-4f);
     const Vec3 center = bounds.center();

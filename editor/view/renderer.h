@@ -91,6 +91,9 @@ struct Scene {
     KeyLight key;
     Environment environment;
     float time = 0; // s, moves the flames
+    /// What lights, shadows and depths are scaled to. Empty: what is in the scene, which grows as melt spreads; give it
+    /// where pictures of one melt are to match.
+    Bounds stage;
 };
 
 struct View {

@@ -141,6 +141,7 @@ void Pictures::take(thawWorld* world, PictureView mode, const std::string& capti
     thawCounters counters;
     thawWorld_GetCounters(world, &counters);
     s.scene.time = float(counters.time);
+    if (s.scene.stage.empty()) s.scene.stage = view::sceneBounds(s.scene); // as it stands at first
     s.view.mode = mode == PictureView::shaded        ? view::ViewMode::shaded
                   : mode == PictureView::temperature ? view::ViewMode::temperature
                                                      : view::ViewMode::phase;

@@ -52,8 +52,10 @@ struct Quality {
 };
 constexpr Quality kQualities[] = {
     {1.0f, 1, 16, 64, 200}, {0.5f, 1, 16, 64, 200}, {0.25f, 1, 16, 64, 200}, {0.25f, 2, 4, 8, 40}, {0.25f, 2, 2, 4, 20},
-    {0.125f, 2, 2, 4, 12},  {0.125f, 4, 1, 4, 12},  {0.125f, 4, 1, 3, 8},    {0.05f, 4, 1, 2, 6},  {0.05f, 8, 1, 2, 4},
+    {0.125f, 2, 2, 4, 12},  {0.125f, 4, 1, 4, 12},  {0.1f, 4, 1, 4, 8},      {0.05f, 8, 1, 3, 6},
 };
+// Not below: at 2 pressure and 4 viscosity iterations the candle throws drops (19 in 20 s faster than 0.4 m/s
+// sideways), at 3 and 6 none. A budget that asks for less is exceeded, and the step says so.
 constexpr int kQualityCount = static_cast<int>(sizeof(kQualities) / sizeof(kQualities[0]));
 constexpr float kFill = 0.80f;      // of the budget, predicted: leaves room for what no prediction sees
 constexpr float kClimbFill = 0.70f; // dead band against going up and down
