@@ -66,7 +66,7 @@ TEST_CASE("presets are the numbers of data_sources.md") {
             CAPTURE(cells[0]);
             CAPTURE(head[i]);
             REQUIRE(kFields.count(head[i]) == 1);
-            CHECK(def.*kFields.at(head[i]) == doctest::Approx(std::stod(cells[i])).epsilon(1e-6));
+            CHECK(def.*kFields.at(head[i]) == std::stof(cells[i]));
         }
     }
     CHECK(rows == thawMaterial_presetCount);

@@ -198,7 +198,7 @@ void Heat::radiation(const HeatFrame& f) {
     m.absorbing = true;
     const size_t count = static_cast<size_t>(p.count);
     m.power.assign(count, 0.0f);
-    m.exposed.clear();
+    m.exposed.clear(), m.exposed.reserve(count);
     for (int i = 0; i < p.count; ++i) {
         const size_t k = static_cast<size_t>(i);
         if ((p.flags[k] & kSurface) && p.normal[k].w > 0)
@@ -209,8 +209,11 @@ void Heat::radiation(const HeatFrame& f) {
     const int exposed = static_cast<int>(m.exposed.size());
     if (exposed == 0) return;
 
+    // The surface of a melt grows for as long as it melts: room for all at once.
+    m.spheres.reserve(count), m.sphereIds.reserve(count), m.priority.reserve(count);
     m.spheres.resizeRaw(m.exposed.size()), m.sphereIds.resizeRaw(m.exposed.size());
     m.priority.resizeRaw(m.exposed.size());
+    m.blockRays.reserve(static_cast<size_t>(Tasks::blockCount(p.count, kRayBlock)));
     m.blockRays.assign(static_cast<size_t>(Tasks::blockCount(exposed, kRayBlock)), 0);
     const auto spacingOf = [&](size_t row) { return p.position[row].w * (1 / kSupport); };
     f.tasks.forBlocks(exposed, kRayBlock, [&](int begin, int end, int, int) {
@@ -250,7 +253,7 @@ void Heat::radiation(const HeatFrame& f) {
     if (refreshed > 0 || (beyond && lit > 0)) {
         if (!m.visibility) m.visibility = std::make_unique<Visibility>(m.allocator);
         m.visibility->setColliders(f.colliders, f.colliderCount, f.colliderVersion);
-        m.visibility->setSpheres(m.spheres.data(), m.sphereIds.data(), exposed);
+        m.visibility->setSpheres(m.spheres.data(), m.sphereIds.data(), exposed, p.count);
     }
     f.tasks.forBlocks(exposed, kRayBlock, [&](int begin, int end, int block, int) {
         float received[kRayBlock] = {};

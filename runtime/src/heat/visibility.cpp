@@ -172,10 +172,15 @@ struct Visibility::Impl {
     int live = 0;
 
     size_t mask() const { return keys.size() - 1; }
+    static size_t placesFor(size_t n) { return n + static_cast<size_t>(kSpare * static_cast<float>(n)) + 8; }
+    static size_t tableFor(size_t places) {
+        size_t size = 64;
+        while (size < 2 * places) size *= 2;
+        return size;
+    }
     static size_t scatter(uint32_t id) { return static_cast<size_t>(id * 2654435761u >> 7); }
     void makeTable() {
-        size_t size = 64;
-        while (size < 2 * ids.size()) size *= 2;
+        const size_t size = tableFor(ids.size());
         keys.assign(size, kNoId), slots.resizeRaw(size);
         for (size_t s = 0; s < ids.size(); ++s) {
             if (ids[s] == kNoId) continue;
@@ -280,7 +285,7 @@ void Visibility::setColliders(const Collider* colliders, int count, uint64_t ver
     m.commit(m.solidScene);
 }
 
-void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count) {
+void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count, int most) {
     Impl& m = *impl_;
     const bool hadNone = m.live == 0;
     m.live = count;
@@ -323,7 +328,11 @@ void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count)
         ++m.refitsSinceBuild, ++refits_;
         return;
     }
-    const size_t places = n + static_cast<size_t>(kSpare * static_cast<float>(n)) + 8;
+    // Embree reads the spheres where they are, so they may only move when it builds anew.
+    const size_t places = Impl::placesFor(n), mostPlaces = Impl::placesFor(static_cast<size_t>(std::max(count, most)));
+    m.spheres.reserve(mostPlaces), m.ids.reserve(mostPlaces), m.taken.reserve(mostPlaces);
+    m.keys.reserve(Impl::tableFor(mostPlaces)), m.slots.reserve(Impl::tableFor(mostPlaces));
+    m.unplaced.reserve(mostPlaces);
     m.spheres.resizeRaw(places), m.ids.resizeRaw(places);
     for (size_t s = 0; s < places; ++s) {
         m.spheres[s] = spheres[s < n ? s : 0];

@@ -30,8 +30,9 @@ public:
     // Takes over the occluders when `version` is not the one of last time.
     void setColliders(const Collider* colliders, int count, uint64_t version);
     // One sphere per exposed particle. ids are distinct; spheres' w is the radius. The order may change from call to
-    // call: an id keeps its place in the tree.
-    void setSpheres(const Vec4* spheres, const uint32_t* ids, int count);
+    // call: an id keeps its place in the tree. `most` is how many there may be one day (0: no more than now): while it
+    // does not grow, only Embree allocates.
+    void setSpheres(const Vec4* spheres, const uint32_t* ids, int count, int most = 0);
     // blocked[k] = the way of ray k is not free, for up to 8 rays. May be called from several threads at once.
     void cast(const Ray* rays, int count, bool* blocked) const;
 
