@@ -129,11 +129,11 @@ scene::Scene makeScene(const Options& o) {
     s.colliders.push_back(floor);
 
     // The body, its lamp and a pool a body wider on each side are in the picture.
-    const double tall = height + above + source.radius, wide = std::max({width, depth, reach}) * 2.4;
+    const double tall = height + above + source.radius, wide = std::max({width, depth, reach}) * 2.9;
     const double half = 0.5 * std::max(tall, wide * 540.0 / 960.0) * 1.15;
     s.camera.fieldOfViewDegrees = 28.0f;
     const double away = half / std::tan(0.5 * 28.0 * std::numbers::pi / 180.0) + 0.5 * depth;
-    s.camera.target = {0.0f, float(0.40 * tall), 0.0f};
+    s.camera.target = {0.0f, float(0.36 * tall), 0.0f};
     s.camera.eye = {float(0.35 * away), float(0.46 * tall + 0.22 * away), float(0.91 * away)};
     s.defaults.seconds = 20.0f;
     s.defaults.captures = {0.0f, 5.0f, 10.0f, 20.0f};

@@ -17,8 +17,6 @@ constexpr float kRestTouch = 1.75f, kRestWallTouch = 1.5f;
 constexpr float kAnchor = 1.0f;
 // In spacings a step. Nothing sets in flight.
 constexpr float kSlow = 0.3f, kRest = 1e-3f;
-// Share of all particles that is a large region when it lets go in one step.
-constexpr float kLargeRegion = 0.01f;
 // Pressure that a setting particle carried goes away over some frames: taken at once, its neighbours fall for a frame.
 constexpr float kPressureFade = 0.81f;
 
@@ -73,13 +71,11 @@ HoldResult Hold::update(const HoldFrame& f) {
         if (touches) state_[i] = kSet, ++result.set;
     }
 
-    const float multiplier =
-        static_cast<float>(result.released) > kLargeRegion * static_cast<float>(n) + 32 ? kStiffStart : 1;
     for (uint32_t i = 0; i < n; ++i) {
         if (state_[i] == kRelease) {
             p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~kFixed);
             p.velocity[i].setXyz({});
-            p.velocityChange[i] = {0, 0, 0, multiplier};
+            p.velocityChange[i] = {0, 0, 0, kStiffStart};
             p.stiffness[i] = 0;
         } else if (state_[i] == kSet) {
             p.flags[i] |= kFixed;

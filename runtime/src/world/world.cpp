@@ -382,7 +382,7 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
 #undef X
         particles.position[k] = {x.x, x.y, x.z, kSupport * def.particleSpacing};
         particles.velocity[k] = {0, 0, 0, mass};
-        particles.velocityChange[k] = {0, 0, 0, liquid ? kStiffStart : 1.0f};
+        particles.velocityChange[k] = {0, 0, 0, liquid ? kStiffBody : 1.0f};
         particles.pressure[k] = liquid ? m.def.density * (dot(x, gravity) - top) : 0.0f;
         particles.enthalpy[k] = H;
         particles.temperature[k] = m.temperature(H);
