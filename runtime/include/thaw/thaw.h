@@ -134,7 +134,6 @@ typedef struct thawWorldDef {
     thawAllocator allocator;
     thawLogger logger;
     thawTaskSystem tasks;
-    void* userData;
 } thawWorldDef;
 
 THAW_API void thawInitWorldDef(thawWorldDef* def);
@@ -218,7 +217,6 @@ typedef struct thawBodyDef {
     thawQuat rotation;     /* default none */
     float scale;           /* 1, range 1e-6..1e6, default 1 */
     float temperature;     /* K at the start, range 0..1e5; default: the world's ambient (NaN stands for it) */
-    void* userData;
 } thawBodyDef;
 
 THAW_API void thawInitBodyDef(thawBodyDef* def);
@@ -256,7 +254,6 @@ typedef struct thawColliderDef {
     float scale;        /* 1, of the mesh; range 1e-6..1e6, default 1 */
     bool adhesive;      /* melt clings to it; default true. Floors are not clung to whatever is set. */
     bool occluder;      /* shades heat sources; default true */
-    void* userData;
 } thawColliderDef;
 
 THAW_API void thawInitColliderDef(thawColliderDef* def, thawColliderType type);
@@ -272,7 +269,6 @@ typedef struct thawHeatSourceDef {
     float power;       /* W, radiated evenly in all directions; range -1e6..1e6 (negative cools), default 20 */
     float radius;      /* m, no point gets closer than this in the inverse-square law; range 1e-4..10, default 0.005 */
     bool enabled;      /* default true */
-    void* userData;
 } thawHeatSourceDef;
 
 THAW_API void thawInitHeatSourceDef(thawHeatSourceDef* def);
@@ -361,7 +357,7 @@ typedef enum thawParticleFlags {
 /* Structure of arrays, `count` long each. Order changes from step to step; ids are stable. */
 typedef struct thawParticleView {
     int32_t count;
-    int32_t moving;               /* the first `moving` particles move, the rest is solid and held */
+    int32_t moving;               /* the first `moving` rows moved in the last step, the rest was held; flags are newer */
     const float* positions;       /* x y z r: m; r is the radius of the particle's sphere of influence for drawing */
     const float* velocities;      /* x y z m: m/s, and mass in kg */
     const float* temperatures;    /* K */

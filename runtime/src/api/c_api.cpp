@@ -99,16 +99,9 @@ template <class F> thawResult guarded(thawWorld* world, F&& f) noexcept {
     }
 }
 
-template <class Id, class Slots> bool validId(const World& w, Id id, const Slots& slots) {
-    return id.index1 != 0 && id.world == w.tag && id.index1 <= slots.size() &&
+template <class Id> bool alive(const World& w, Id id, const std::vector<thaw::Slot>& slots) {
+    return id.index1 != 0 && id.world == w.tag && id.index1 <= slots.size() && slots[id.index1 - 1].alive &&
            slots[id.index1 - 1].generation == id.generation;
-}
-bool validBody(const World& w, thawBodyId id) { return validId(w, id, w.bodies) && w.bodies[id.index1 - 1].alive; }
-bool validCollider(const World& w, thawColliderId id) {
-    return validId(w, id, w.colliderSlots) && w.colliders[id.index1 - 1].alive;
-}
-bool validSource(const World& w, thawHeatSourceId id) {
-    return validId(w, id, w.sourceSlots) && w.sources[id.index1 - 1].alive;
 }
 
 void checkWorldDef(Check& c, const thawWorldDef* d) {
@@ -398,14 +391,14 @@ thawResult thawCreateBody(thawWorld* world, const thawBodyDef* def, thawBodyId* 
 
 thawResult thawDestroyBody(thawWorld* world, thawBodyId id) {
     return guarded(world, [&](World& w, Check& c) {
-        if (!validBody(w, id)) return c.fail(thawResult_staleId, "body: is not alive in this world");
+        if (!alive(w, id, w.bodies)) return c.fail(thawResult_staleId, "body: is not alive in this world");
         w.removeBody(id.index1 - 1);
     });
 }
 
 thawResult thawBody_GetState(const thawWorld* world, thawBodyId id, thawBodyState* out) {
     if (!world || !out) return thawResult_invalidArgument;
-    if (!validBody(world->world, id)) return thawResult_staleId;
+    if (!alive(world->world, id, world->world.bodies)) return thawResult_staleId;
     *out = world->world.bodyState(id.index1 - 1);
     return thawResult_ok;
 }
@@ -452,7 +445,7 @@ thawResult thawCreateCollider(thawWorld* world, const thawColliderDef* def, thaw
 
 thawResult thawDestroyCollider(thawWorld* world, thawColliderId id) {
     return guarded(world, [&](World& w, Check& c) {
-        if (!validCollider(w, id)) return c.fail(thawResult_staleId, "collider: is not alive in this world");
+        if (!alive(w, id, w.colliderSlots)) return c.fail(thawResult_staleId, "collider: is not alive in this world");
         w.removeCollider(id.index1 - 1);
     });
 }
@@ -478,28 +471,26 @@ thawResult thawCreateHeatSource(thawWorld* world, const thawHeatSourceDef* def, 
         if (!c.ok()) return;
         if (w.sources.size() <= slot) w.sourceSlots.resize(slot + 1), w.sources.resize(slot + 1);
         w.sources[slot] = toSource(*def);
-        thaw::SourceSlot& s = w.sourceSlots[slot];
-        ++s.generation;
-        if (s.generation == 0) s.generation = 1;
-        s.userData = def->userData;
-        *outId = {static_cast<uint32_t>(slot) + 1, w.tag, s.generation};
+        w.sourceSlots[slot].take();
+        *outId = {static_cast<uint32_t>(slot) + 1, w.tag, w.sourceSlots[slot].generation};
     });
 }
 
 thawResult thawHeatSource_Set(thawWorld* world, thawHeatSourceId id, const thawHeatSourceDef* def) {
     return guarded(world, [&](World& w, Check& c) {
         checkSource(c, def);
-        if (c.ok() && !validSource(w, id)) c.fail(thawResult_staleId, "heatSource: is not alive in this world");
+        if (c.ok() && !alive(w, id, w.sourceSlots))
+            c.fail(thawResult_staleId, "heatSource: is not alive in this world");
         if (!c.ok()) return;
         w.sources[id.index1 - 1] = toSource(*def);
-        w.sourceSlots[id.index1 - 1].userData = def->userData;
     });
 }
 
 thawResult thawDestroyHeatSource(thawWorld* world, thawHeatSourceId id) {
     return guarded(world, [&](World& w, Check& c) {
-        if (!validSource(w, id)) return c.fail(thawResult_staleId, "heatSource: is not alive in this world");
+        if (!alive(w, id, w.sourceSlots)) return c.fail(thawResult_staleId, "heatSource: is not alive in this world");
         w.sources[id.index1 - 1] = {};
+        w.sourceSlots[id.index1 - 1].alive = false;
     });
 }
 

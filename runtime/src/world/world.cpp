@@ -395,16 +395,19 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
         energyAdded_ += static_cast<double>(mass) * H;
     }
     particles.pad();
-    Body& body = bodies[slot];
-    ++body.generation;
-    if (body.generation == 0) body.generation = 1;
-    body.alive = true, body.userData = d.userData;
+    bodies[slot].take();
     index1 = static_cast<uint32_t>(slot) + 1;
     holdStale_ = true;
     stepsSinceRelabel_ = kRelabelInterval;
-    // Lists now and not in the first step: their memory is taken while the host loads, not while it plays.
-    refreshNeighbors();
-    refreshExposure();
+    // Lists now and not in the first step: their memory is taken while the host loads, not while it plays. The body is
+    // there whatever becomes of them; without memory the first step tries again and says so.
+    listsStale_ = true;
+    try {
+        refreshNeighbors();
+        refreshExposure();
+    } catch (const std::bad_alloc&) {
+        listsStale_ = true;
+    }
     measure();
     return thawResult_ok;
 }
@@ -463,10 +466,7 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
     }
     if (colliders.size() <= slot) colliders.resize(slot + 1), colliderSlots.resize(slot + 1);
     colliders[slot] = std::move(c);
-    ColliderSlot& s = colliderSlots[slot];
-    ++s.generation;
-    if (s.generation == 0) s.generation = 1;
-    s.userData = d.userData;
+    colliderSlots[slot].take();
     index1 = static_cast<uint32_t>(slot) + 1;
     ++colliderVersion_;
     listsStale_ = holdStale_ = true;
@@ -476,6 +476,7 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
 
 void World::removeCollider(uint32_t index) {
     colliders[index] = Collider{};
+    colliderSlots[index].alive = false;
     ++colliderVersion_;
     listsStale_ = holdStale_ = true;
     stepsSinceRelabel_ = kRelabelInterval;
@@ -545,7 +546,7 @@ thawCounters World::counters() const {
     thawCounters c = counters_;
     c.particles = particles.count, c.capacity = def.maxParticles;
     c.materials = static_cast<int32_t>(materials.size());
-    for (const Body& b : bodies) c.bodies += b.alive;
+    for (const Slot& b : bodies) c.bodies += b.alive;
     for (const Collider& x : colliders) c.colliders += x.alive;
     for (const HeatSource& s : sources) c.heatSources += s.alive;
     c.neighborsMax = neighbors_.maxNeighbors, c.neighborsMean = neighbors_.meanNeighbors;

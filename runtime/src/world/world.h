@@ -19,20 +19,13 @@
 
 namespace thaw {
 
-struct Body {
-    uint16_t generation = 0;
+struct Slot {
+    uint16_t generation = 0; // counts who lived here; never 0 for a valid id
     bool alive = false;
-    void* userData = nullptr;
-};
-
-struct ColliderSlot {
-    uint16_t generation = 0;
-    void* userData = nullptr;
-};
-
-struct SourceSlot {
-    uint16_t generation = 0;
-    void* userData = nullptr;
+    void take() {
+        if (++generation == 0) generation = 1;
+        alive = true;
+    }
 };
 
 // One independent world. Arguments are validated by the C boundary (src/api); what can still fail here returns a
@@ -65,11 +58,11 @@ public:
     std::string lastError;
 
     std::vector<Material> materials;
-    std::vector<Body> bodies;
-    std::vector<Collider> colliders;
-    std::vector<ColliderSlot> colliderSlots;
+    std::vector<Slot> bodies;
+    std::vector<Collider> colliders; // and their slots, of the same index
+    std::vector<Slot> colliderSlots;
     std::vector<HeatSource> sources;
-    std::vector<SourceSlot> sourceSlots;
+    std::vector<Slot> sourceSlots;
     Particles particles;
     thawPlan plan{};
     thawProfile profile{};
