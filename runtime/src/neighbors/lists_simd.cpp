@@ -80,7 +80,7 @@ template <bool kMixed> void collect(const ListArgs& a, uint32_t key, ListScratch
         n += static_cast<int>(end - begin);
     }
     store(all(Particles::kFar), s.x + n);
-    store(zero(), s.h + n);
+    store(zero(), s.y + n), store(zero(), s.z + n), store(zero(), s.h + n);
 }
 
 struct Self {
