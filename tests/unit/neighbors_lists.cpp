@@ -340,20 +340,26 @@ TEST_CASE("neighbors: candidates hold everything in reach, in order and once") {
         c.sort();
         const Particles& p = c.particles;
         Random random;
-        int missed = 0, twice = 0;
+        int missed = 0, twice = 0, wrongKind = 0;
         float h = 0;
         for (const Cloud::Point& q : test.points) h = std::max(h, q.support);
         for (int k = 0; k < 300; ++k) {
             Vec3 at = p.position[static_cast<size_t>(random(0, 0.999f) * static_cast<float>(p.count))].xyz() +
                       Vec3{random(-1, 1) * h, random(-1, 1) * h, random(-1, 1) * h};
-            std::vector<int> found;
-            c.neighbors.forCandidates(at, h, [&](int j) { found.push_back(j); });
+            const float radius = random(0.1f, 1) * h;
+            std::vector<int> found, fixed;
+            c.neighbors.forCandidates(at, radius, [&](int j) { found.push_back(j); });
+            c.neighbors.forFixedCandidates(at, radius, [&](int j) { fixed.push_back(j); });
+            found.erase(std::lower_bound(found.begin(), found.end(), p.moverCount), found.end());
+            found.insert(found.end(), fixed.begin(), fixed.end());
+            wrongKind += !fixed.empty() && fixed.front() < p.moverCount;
             for (size_t m = 1; m < found.size(); ++m) twice += found[m - 1] >= found[m];
             for (int j = 0; j < p.count; ++j)
-                if (length(p.position[static_cast<size_t>(j)].xyz() - at) <= h)
+                if (length(p.position[static_cast<size_t>(j)].xyz() - at) <= radius)
                     missed += !std::binary_search(found.begin(), found.end(), j);
         }
         CHECK(missed == 0);
         CHECK(twice == 0);
+        CHECK(wrongKind == 0);
     }
 }

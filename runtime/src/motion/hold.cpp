@@ -4,6 +4,8 @@
 
 #include "base/kernel.h"
 
+#include <algorithm>
+
 namespace thaw {
 namespace {
 
@@ -20,13 +22,12 @@ constexpr float kSlow = 0.3f, kRest = 1e-3f;
 // Pressure that a setting particle carried goes away over some frames: taken at once, its neighbours fall for a frame.
 constexpr float kPressureFade = 0.81f;
 
-bool nearCollider(const HoldFrame& f, Vec3 p, float reach) {
-    for (int c = 0; c < f.colliderCount; ++c) {
-        if (!f.colliders[c].alive) continue;
-        Vec3 n;
-        if (f.colliders[c].distance(p, n) < reach) return true;
-    }
-    return false;
+constexpr int kRowBlock = 256;
+
+bool nearWall(const WallFinder& walls, Vec3 p, float reach) {
+    bool near = false;
+    walls.forNear(p, reach, [&](float distance, Vec3, const Collider&) { near |= distance < reach; });
+    return near;
 }
 
 template <class F> void forNeighbors(const Neighbors& nb, int i, F&& f) {
@@ -38,45 +39,139 @@ template <class F> void forNeighbors(const Neighbors& nb, int i, F&& f) {
 
 } // namespace
 
-HoldResult Hold::update(const HoldFrame& f) {
+void Hold::gather(const HoldFrame& f, int begin, int end, WallFinder& walls) const {
+    constexpr float kFarthest = std::max(std::max(kWallTouch, kRestWallTouch), kAnchor) / kSupport;
+    Box around;
+    float support = 0;
+    for (int i = begin; i < end; ++i) {
+        const Vec4 x = f.particles.position[static_cast<size_t>(i)];
+        around.grow(x.xyz()), support = std::max(support, x.w);
+    }
+    walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, kFarthest * support);
+}
+
+// Releases and settings of rows [begin, end) into state_. Reads the flags of others, which nobody changes meanwhile.
+HoldResult Hold::decide(const HoldFrame& f, int begin, int end) {
     Particles& p = f.particles;
     HoldResult result;
-    const uint32_t n = static_cast<uint32_t>(p.count);
-    enum : uint8_t { kStay, kRelease, kSet, kReached };
-    state_.assign(n, kStay);
-
-    for (uint32_t i = 0; i < n; ++i) {
-        const Material& m = f.materials[p.material[i]];
-        const float phi = p.liquidFraction[i];
-        if (p.flags[i] & kFixed) {
-            if (phi > m.def.releaseFraction) state_[i] = kRelease, ++result.released;
-            if (p.pressure[i] > 0) p.pressure[i] = p.pressure[i] > 1 ? p.pressure[i] * kPressureFade : 0;
+    WallFinder walls;
+    bool gathered = false;
+    for (int i = begin; i < end; ++i) {
+        const size_t k = static_cast<size_t>(i);
+        const Material& m = f.materials[p.material[k]];
+        const float phi = p.liquidFraction[k];
+        state_[k] = kStay;
+        if (p.flags[k] & kFixed) {
+            if (phi > m.def.releaseFraction) state_[k] = kRelease, ++result.released;
+            if (p.pressure[k] > 0) p.pressure[k] = p.pressure[k] > 1 ? p.pressure[k] * kPressureFade : 0;
             continue;
         }
         if (phi >= m.def.setFraction) continue;
-        const float spacing = p.position[i].w / kSupport;
-        const float moved = length(p.velocity[i].xyz()) * f.dt;
+        const float spacing = p.position[k].w / kSupport;
+        const float moved = length(p.velocity[k].xyz()) * f.dt;
         if (moved > kSlow * spacing) continue;
         const bool rests = moved < kRest * spacing;
-        const Vec3 x = p.position[i].xyz();
-        bool touches = nearCollider(f, x, (rests ? kRestWallTouch : kWallTouch) * spacing);
+        const Vec3 x = p.position[k].xyz();
+        if (!gathered) gather(f, begin, end, walls), gathered = true;
+        bool touches = nearWall(walls, x, (rests ? kRestWallTouch : kWallTouch) * spacing);
         if (!touches)
-            forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
-                if (j >= n || !(p.flags[j] & kFixed)) return true;
+            forNeighbors(f.neighbors, i, [&](uint32_t j) {
+                if (j >= static_cast<uint32_t>(p.count) || !(p.flags[j] & kFixed)) return true;
                 const float reach = (rests ? kRestTouch : kTouch) * 0.5f * (spacing + p.position[j].w / kSupport);
                 Vec3 d = p.position[j].xyz() - x;
                 touches = dot(d, d) < reach * reach;
                 return !touches;
             });
-        if (touches) state_[i] = kSet, ++result.set;
+        if (touches) state_[k] = kSet, ++result.set;
     }
+    return result;
+}
 
-    for (uint32_t i = 0; i < n; ++i) {
+// Marks in state_ every fixed row that hangs together with a collider.
+void Hold::reach(const HoldFrame& f) {
+    const Particles& p = f.particles;
+    const auto linked = [&](uint32_t i, uint32_t j) {
+        const Vec4 x = p.position[i], y = p.position[j];
+        const float reach = kLink * 0.5f * (x.w + y.w) / kSupport;
+        const Vec3 d = y.xyz() - x.xyz();
+        return dot(d, d) < reach * reach;
+    };
+    const auto reached = [&](uint32_t i) {
+        // The row before is mostly a neighbour, and at hand.
+        if (i > 0 && state_[i - 1] == kReached && linked(i - 1, i)) return true;
+        bool found = false;
+        forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
+            found = j < static_cast<uint32_t>(p.count) && state_[j] == kReached && linked(i, j);
+            return !found;
+        });
+        return found;
+    };
+    // Rows lie in the order of cells, so that most find a reached neighbour after a few looks and need no collider:
+    // 0.3 instead of 1.4 ms at 10,000 particles for following all links of all rows from those at a collider.
+    queue_.clear();
+    for (int begin = 0; begin < p.count; begin += kRowBlock) {
+        const int end = std::min(p.count, begin + kRowBlock);
+        WallFinder walls;
+        bool gathered = false;
+        for (int row = begin; row < end; ++row) {
+            const uint32_t i = static_cast<uint32_t>(row);
+            state_[i] = kStay;
+            if (!(p.flags[i] & kFixed)) continue;
+            bool held = reached(i);
+            if (!held) {
+                if (!gathered) gather(f, begin, end, walls), gathered = true;
+                held = nearWall(walls, p.position[i].xyz(), kAnchor * p.position[i].w / kSupport);
+            }
+            if (held)
+                state_[i] = kReached;
+            else
+                queue_.push(i);
+        }
+    }
+    // The rest: what is reached now, and all that follows from it.
+    const size_t open = queue_.size();
+    for (size_t k = open; k-- > 0;) {
+        const uint32_t start = queue_[k];
+        if (state_[start] == kReached || !reached(start)) continue;
+        state_[start] = kReached;
+        queue_.push(start);
+        while (queue_.size() > open) {
+            const uint32_t i = queue_[queue_.size() - 1];
+            queue_.resizeRaw(queue_.size() - 1);
+            forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
+                if (j < static_cast<uint32_t>(p.count) && state_[j] != kReached && (p.flags[j] & kFixed) &&
+                    linked(i, j))
+                    state_[j] = kReached, queue_.push(j);
+                return true;
+            });
+        }
+    }
+}
+
+HoldResult Hold::update(const HoldFrame& f) {
+    Particles& p = f.particles;
+    const size_t n = static_cast<size_t>(p.count);
+    state_.resizeRaw(n);
+    queue_.reserve(2 * static_cast<size_t>(p.capacity)); // now, so that looking later allocates nothing
+    colliderBounds_.resizeRaw(static_cast<size_t>(f.colliderCount));
+    for (int c = 0; c < f.colliderCount; ++c)
+        if (f.colliders[c].alive) colliderBounds_[static_cast<size_t>(c)] = f.colliders[c].bounds();
+    blocks_.assign(static_cast<size_t>(Tasks::blockCount(p.count, kRowBlock)), {});
+    f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int block, int) {
+        blocks_[static_cast<size_t>(block)] = decide(f, begin, end);
+    });
+    HoldResult result;
+    for (const HoldResult& r : blocks_) result.released += r.released, result.set += r.set;
+
+    const auto letGo = [&](size_t i, float multiplier) {
+        p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~kFixed);
+        p.velocity[i].setXyz({});
+        p.velocityChange[i] = {0, 0, 0, multiplier};
+        p.stiffness[i] = 0;
+    };
+    for (size_t i = 0; i < n && result.changed(); ++i) {
         if (state_[i] == kRelease) {
-            p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~kFixed);
-            p.velocity[i].setXyz({});
-            p.velocityChange[i] = {0, 0, 0, kStiffStart};
-            p.stiffness[i] = 0;
+            letGo(i, kStiffStart);
         } else if (state_[i] == kSet) {
             p.flags[i] |= kFixed;
             p.velocity[i].setXyz({});
@@ -85,32 +180,9 @@ HoldResult Hold::update(const HoldFrame& f) {
     }
 
     if (!f.relabel) return result;
-    queue_.clear();
-    for (uint32_t i = 0; i < n; ++i) {
-        if (!(p.flags[i] & kFixed)) continue;
-        if (nearCollider(f, p.position[i].xyz(), kAnchor * p.position[i].w / kSupport))
-            state_[i] = kReached, queue_.push(i);
-    }
-    for (size_t head = 0; head < queue_.size(); ++head) {
-        const uint32_t i = queue_[head];
-        const Vec3 x = p.position[i].xyz();
-        const float h = p.position[i].w;
-        forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
-            if (j >= n || state_[j] == kReached || !(p.flags[j] & kFixed)) return true;
-            float reach = kLink * 0.5f * (h + p.position[j].w) / kSupport;
-            Vec3 d = p.position[j].xyz() - x;
-            if (dot(d, d) < reach * reach) state_[j] = kReached, queue_.push(j);
-            return true;
-        });
-    }
-    for (uint32_t i = 0; i < n; ++i)
-        if ((p.flags[i] & kFixed) && state_[i] != kReached) {
-            p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~kFixed);
-            p.velocity[i].setXyz({});
-            p.velocityChange[i] = {0, 0, 0, 1};
-            p.stiffness[i] = 0;
-            ++result.cutLoose;
-        }
+    reach(f);
+    for (size_t i = 0; i < n; ++i)
+        if ((p.flags[i] & kFixed) && state_[i] != kReached) letGo(i, 1), ++result.cutLoose;
     return result;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/tasks.h"
 #include "base/types.h"
 #include "geometry/colliders.h"
 #include "neighbors/neighbors.h"
@@ -25,6 +26,7 @@ struct HoldFrame {
     const Material* materials;
     const Collider* colliders;
     int colliderCount;
+    Tasks& tasks;
     float dt;     // s, of the step
     bool relabel; // look for pieces that lost their hold
 };
@@ -43,12 +45,20 @@ struct HoldResult {
 // Works on flags only; the rows take their new places at the next sort.
 class Hold {
 public:
-    explicit Hold(Allocator& allocator) : state_(allocator), queue_(allocator) {}
+    explicit Hold(Allocator& allocator)
+        : state_(allocator), queue_(allocator), colliderBounds_(allocator), blocks_(allocator) {}
     HoldResult update(const HoldFrame& f);
 
 private:
+    enum : uint8_t { kStay, kRelease, kSet, kReached };
+    HoldResult decide(const HoldFrame& f, int begin, int end);
+    void reach(const HoldFrame& f);
+    void gather(const HoldFrame& f, int begin, int end, WallFinder& walls) const;
+
     Array<uint8_t> state_;
     Array<uint32_t> queue_;
+    Array<Box> colliderBounds_;
+    Array<HoldResult> blocks_;
 };
 
 } // namespace thaw

@@ -3,6 +3,7 @@
 #include "motion/motion.h"
 
 #include "motion/numbers.h"
+#include "motion/pairs.h"
 #include "motion/walls.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ struct Contact {
 // The nearest walls in reach, nearest first; of equals the one with the lower index.
 int findContacts(const WallFinder& walls, Vec3 p, float reach, Contact (&out)[Motion::kContacts]) {
     int n = 0;
-    walls.forNear(p, [&](float distance, Vec3 normal, const Collider& c) {
+    walls.forNear(p, reach, [&](float distance, Vec3 normal, const Collider& c) {
         if (!(distance < reach)) return;
         const Contact k{normal, distance, c.adhesive};
         int at = n < Motion::kContacts ? n++ : n;
@@ -53,28 +54,9 @@ void wallFraction(const Contact* c, int n, float h, float& fraction, Vec3& gradi
 }
 
 // The fixed particles around a mover as one smooth wall: distance by how much of the support they fill, normal by how
-// that changes. Single particles leave hollows through which others sink, layer after layer.
-Vec4 heldSurface(const MotionFrame& f, int row) {
-    const Particles& p = f.particles;
-    const size_t i = static_cast<size_t>(row), g = i >> 3;
-    const uint32_t start = f.neighbors.first[g] + static_cast<uint32_t>(i & 7);
-    const Vec4 x = p.position[i];
-    float filled = 0;
-    Vec3 gradient;
-    // Fixed rows come after the movers and entries ascend: from the back, past the unused ones.
-    for (uint32_t k = f.neighbors.width[g]; k-- > 0;) {
-        const uint32_t e = start + 8 * k;
-        const int j = static_cast<int>(f.neighbors.entries[e] >> 4);
-        if (j < p.moverCount) break;
-        if (j >= p.count) continue;
-        const Vec4 y = p.position[static_cast<size_t>(j)];
-        const Vec3 d = x.xyz() - y.xyz();
-        const float h = 0.5f * (x.w + y.w), q = length(d) / h, a = std::max(0.0f, 1 - q);
-        filled += f.volume[j] * kWendland / (h * h * h) * (a * a) * (a * a) * (1 + 4 * q);
-        gradient += f.neighbors.gradient[e] * d;
-    }
-    filled /= latticeSum();
-    const float steep = length(gradient) * x.w;
+// that changes. Single particles leave hollows through which others sink, layer after layer. fixed: of HeldPass.
+Vec4 heldSurface(const Vec4& fixed, float h) {
+    const float filled = fixed.w, steep = length(fixed.xyz()) * h;
     if (!(filled > 1e-3f) || !(steep > 0.05f)) return {0, 0, 0, INFINITY};
     const float* table = wallTable().fraction;
     int low = 0, high = WallTable::kSize; // table[low] >= filled >= table[high]
@@ -84,8 +66,8 @@ Vec4 heldSurface(const MotionFrame& f, int row) {
     }
     const float between = table[low] > table[high] ? (table[low] - filled) / (table[low] - table[high]) : 0.0f;
     const float q = -1 + 2 * (static_cast<float>(low) + std::clamp(between, 0.0f, 1.0f)) / WallTable::kSize;
-    const Vec3 n = (-x.w / steep) * gradient;
-    return {n.x, n.y, n.z, q * x.w};
+    const Vec3 n = (-h / steep) * fixed.xyz();
+    return {n.x, n.y, n.z, q * h};
 }
 
 bool outside(const Box& b, Vec3 p, float margin) {
@@ -150,6 +132,7 @@ void Motion::begin(const MotionFrame& f) {
         WallFinder walls;
         walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, reach);
 
+        pairHeld({PairLists(f.neighbors), p.position.data(), f.volume, p.moverCount, held_.data()}, begin, end);
         BlockSums sums;
         // Neighbours in memory mostly share material and liquid fraction: the exponential is kept.
         int material = -1;
@@ -168,7 +151,7 @@ void Motion::begin(const MotionFrame& f) {
                 contact_[c] = {found[k].normal.x, found[k].normal.y, found[k].normal.z, found[k].distance};
                 contactAdhesive_[c] = found[k].adhesive;
             }
-            held_[i] = heldSurface(f, r);
+            held_[i] = heldSurface(held_[i], h);
             float solid = 0;
             Vec3 gradient;
             if (n) wallFraction(found, n, h, solid, gradient);

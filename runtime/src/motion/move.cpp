@@ -21,7 +21,7 @@ constexpr int kSweepMost = 256, kBlockedMost = 4;
 constexpr float kSpeedLimit = 30, kSpeedLimitSpacings = 100;
 
 void pushOut(const WallFinder& walls, float standoff, Vec3& x, Vec3& v) {
-    walls.forNear(x, [&](float d, Vec3 normal, const Collider&) {
+    walls.forNear(x, standoff, [&](float d, Vec3 normal, const Collider&) {
         if (d >= standoff) return;
         x += (standoff - d) * normal;
         const float into = dot(normal, v);
@@ -38,7 +38,7 @@ struct Obstacles {
     // Distance to the nearest wall, infinite where none is near.
     float room(const Vec3& x) const {
         float nearest = INFINITY;
-        walls.forNear(x, [&](float d, Vec3, const Collider&) { nearest = std::min(nearest, d); });
+        walls.forNear(x, INFINITY, [&](float d, Vec3, const Collider&) { nearest = std::min(nearest, d); });
         return nearest;
     }
     bool nearHeld(Vec3 x, float margin) const {
@@ -53,8 +53,7 @@ struct Obstacles {
     };
     Surface surface(Vec3 x, float radius) const {
         Surface s;
-        neighbors.forCandidates(x, radius, [&](int j) {
-            if (!particles.fixed(j)) return;
+        neighbors.forFixedCandidates(x, radius, [&](int j) {
             const Vec3 d = x - particles.position[static_cast<size_t>(j)].xyz();
             const float r = length(d);
             if (!(r < radius)) return;

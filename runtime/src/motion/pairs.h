@@ -72,6 +72,16 @@ struct PushPass {
 };
 void pairPush(const PushPass& p, int begin, int end);
 
+// What of the support of a mover is fixed: xyz sum of g_ij over the fixed neighbours in 1/m, w their volume fraction.
+struct HeldPass {
+    PairLists lists;
+    const Vec4* position;
+    const float* volume;
+    int moverCount; // > 0
+    Vec4* out;
+};
+void pairHeld(const HeldPass& p, int begin, int end);
+
 // out_i = push apart of pairs closer than a share of their mean spacing
 struct SeparationPass {
     PairLists lists;

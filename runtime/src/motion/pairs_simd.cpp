@@ -143,6 +143,34 @@ void pushGroups(const PushPass& p, int begin, int end) {
         }
 }
 
+void heldGroups(const HeldPass& p, int begin, int end) {
+    const U32 lastMover = hn::Set(kU32, 16 * static_cast<uint32_t>(p.moverCount - 1));
+    const F32 one = all(1), half = all(0.5f);
+    for (int g = begin; g < end; ++g)
+        for (int part = 0; part < 8; part += kLanes) {
+            const Span s = spanOf(p.lists, g, part);
+            const Rows xi = loadRows(p.position + s.row);
+            F32 ox = zero(), oy = zero(), oz = zero(), filled = zero();
+            // Fixed rows come after the movers and entries ascend: from the back, as long as there are any.
+            for (uint32_t k = s.width; k-- > 0;) {
+                const Mask fixed = hn::RebindMask(kF32, hn::Gt(hn::LoadU(kU32, s.entry + 8 * k), lastMover));
+                if (hn::AllFalse(kF32, fixed)) break;
+                const Rows xj = gatherRows(p.position, s.entry + 8 * k);
+                const F32 x = hn::Sub(xi.x, xj.x), y = hn::Sub(xi.y, xj.y), z = hn::Sub(xi.z, xj.z);
+                const F32 r2 = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+                const F32 h = hn::Mul(half, hn::Add(xi.w, xj.w)), q = hn::Div(hn::Sqrt(r2), h);
+                const F32 a = hn::Max(zero(), hn::Sub(one, q)), a2 = hn::Mul(a, a);
+                const F32 peak =
+                    hn::Div(hn::Mul(gather(p.volume, s.entry + 8 * k), all(kWendland)), hn::Mul(hn::Mul(h, h), h));
+                const F32 w = hn::Mul(hn::Mul(hn::Mul(peak, a2), a2), hn::Add(one, hn::Mul(all(4), q)));
+                filled = hn::Add(filled, hn::IfThenElseZero(fixed, w));
+                const F32 c = hn::IfThenElseZero(fixed, load(p.lists.gradient + s.start + 8 * k));
+                ox = hn::Add(ox, hn::Mul(c, x)), oy = hn::Add(oy, hn::Mul(c, y)), oz = hn::Add(oz, hn::Mul(c, z));
+            }
+            storeRows(p.out + s.row, ox, oy, oz, hn::Div(filled, all(latticeSum())));
+        }
+}
+
 Dots advanceRows(float along, const float* direction, const float* image, const float* inverse, float* velocity,
                  float* residual, int begin, int end) {
     const F32 a = all(along);
@@ -218,6 +246,7 @@ HWY_EXPORT(forceGroups);
 HWY_EXPORT(viscousGroups);
 HWY_EXPORT(jacobiGroups);
 HWY_EXPORT(pushGroups);
+HWY_EXPORT(heldGroups);
 HWY_EXPORT(separationGroups);
 HWY_EXPORT(advanceRows);
 HWY_EXPORT(turnRows);
@@ -226,6 +255,7 @@ void pairForces(const ForcePass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(f
 void pairViscosity(const ViscousPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(viscousGroups)(p, begin, end); }
 void pairJacobi(const JacobiPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(jacobiGroups)(p, begin, end); }
 void pairPush(const PushPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(pushGroups)(p, begin, end); }
+void pairHeld(const HeldPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(heldGroups)(p, begin, end); }
 void pairSeparation(const SeparationPass& p, int begin, int end) {
     HWY_DYNAMIC_DISPATCH(separationGroups)(p, begin, end);
 }

@@ -7,7 +7,7 @@ namespace thaw {
 namespace {
 
 constexpr int kGroupBlock = 32; // 256 rows: some 20 cells, 15-20 us
-constexpr int kRowBlock = 2048;
+constexpr int kRowBlock = 512;
 constexpr uint32_t kFirstGuess = 48; // entries per row before the first build; the lattice has 32
 
 } // namespace
@@ -113,7 +113,7 @@ void Neighbors::weigh(const Particles& particles, const float* volume, const flo
     args.inverseLatticeSum = 1 / latticeSum();
     args.entries = entries.data(), args.first = first.data(), args.width = width.data();
     args.gradient = gradient.data(), args.volumeFraction = volumeFraction.data();
-    args.gradientSum = gradientSum.data();
+    args.gradientSum = gradientSum.data(), args.moverGroups = moverGroups;
     tasks.forBlocks(groupCount, kGroupBlock, [&](int begin, int end, int, int) { weighGroups(args, begin, end); });
 }
 

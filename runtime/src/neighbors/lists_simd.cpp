@@ -52,7 +52,7 @@ template <bool kMixed> void collect(const ListArgs& a, uint32_t key, ListScratch
     const int firstKind = a.moverCount > 0 ? 0 : 1, lastKind = a.moverCount < a.count ? 1 : 0;
     for (int kind = firstKind; kind <= lastKind; ++kind)
         c.rangeCount +=
-            a.grid.ranges(a.cellStart + static_cast<uint32_t>(kind) * cells, x, y, z, c.ranges + c.rangeCount);
+            a.grid.ranges(a.cellStart + static_cast<uint32_t>(kind) * cells, {{x, y, z}}, c.ranges + c.rangeCount);
     const uint32_t own[2] = {a.cellStart[cell], a.cellStart[cell + cells]};
 
     int n = 0;

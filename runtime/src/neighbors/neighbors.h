@@ -36,7 +36,8 @@ public:
     Array<uint32_t> first;   // per group; ascending within a block of groups, with gaps between blocks
     Array<uint32_t> width;   // per group
     Array<float> volumeFraction; // per particle: sum of V_j W / s0, itself included; 1 in the interior of the lattice
-    Array<Vec4> gradientSum;     // per particle: xyz sum of V_j grad W / s0; w sum of V_j |grad W / s0|^2 invDensity_j
+    Array<Vec4> gradientSum;     // per particle: xyz sum of V_j grad W / s0; w sum of V_j |grad W / s0|^2 invDensity_j,
+                                 // 0 for groups without movers: nobody moves by it
     int maxNeighbors = 0;        // of the last build
     float meanNeighbors = 0;
     bool clipped = false; // a row had more neighbours than kMaxNeighbors; the farthest in row order were left out
@@ -44,9 +45,17 @@ public:
 
     // Calls f(j) for every row j whose position may be within `radius` of p (whole cells), in ascending cell order; the
     // cells are those of the last sort. radius at most the largest support.
-    template <class F> void forCandidates(Vec3 p, float radius, F&& f) const;
+    template <class F> void forCandidates(Vec3 p, float radius, F&& f) const {
+        forCandidates(0, p, radius, static_cast<F&&>(f));
+    }
+    // The same for the rows that were fixed at the last sort.
+    template <class F> void forFixedCandidates(Vec3 p, float radius, F&& f) const {
+        forCandidates(1, p, radius, static_cast<F&&>(f));
+    }
 
 private:
+    template <class F> void forCandidates(int firstKind, Vec3 p, float radius, F&& f) const;
+
     struct Bounds {
         Vec4 lower, upper; // w: support
     };
@@ -65,13 +74,12 @@ private:
     Array<ListScratch> scratch_; // per worker
 };
 
-template <class F> void Neighbors::forCandidates(Vec3 p, float radius, F&& f) const {
-    (void)radius; // the cells are as wide as the largest support
+template <class F> void Neighbors::forCandidates(int firstKind, Vec3 p, float radius, F&& f) const {
     if (cellStart_.empty()) return;
-    const int x = grid_.coordinate(0, p.x), y = grid_.coordinate(1, p.y), z = grid_.coordinate(2, p.z);
-    for (int kind = 0; kind < 2; ++kind) {
+    const CellGrid::Reach reach = grid_.reach(p, radius);
+    for (int kind = firstKind; kind < 2; ++kind) {
         CellGrid::Range ranges[CellGrid::kMaxRanges];
-        const int n = grid_.ranges(cellStart_.data() + kind * grid_.cellCount(), x, y, z, ranges);
+        const int n = grid_.ranges(cellStart_.data() + kind * grid_.cellCount(), reach, ranges);
         for (int r = 0; r < n; ++r)
             for (uint32_t j = ranges[r].begin; j < ranges[r].end; ++j) f(static_cast<int>(j));
     }

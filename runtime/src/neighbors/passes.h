@@ -61,6 +61,7 @@ struct WeighArgs {
     const uint32_t *entries, *first, *width;
     float *gradient, *volumeFraction;
     Vec4* gradientSum;
+    int moverGroups; // the others get no sum of squares
 };
 
 void weighGroups(const WeighArgs& a, int begin, int end);

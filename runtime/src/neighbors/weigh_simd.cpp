@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 // With p = 1 - q: W = k / h^3 p^4 (5 - 4 p), W'/r = -k' / h^5 p^3. No division by r, so coincident particles are
 // harmless, and dummies (p = 0) contribute nothing.
-template <bool kMixed> void weighRange(const WeighArgs& a, int begin, int end) {
+template <bool kMixed, bool kSquare> void weighRange(const WeighArgs& a, int begin, int end) {
     const float h0 = a.support, s0 = a.inverseLatticeSum;
     const float i3 = kMixed ? 1 : 1 / (h0 * h0 * h0), i5 = kMixed ? 1 : 1 / (h0 * h0 * h0 * h0 * h0);
     const F32 kernel = all(kWendland * i3 * s0), slope = all(-kWendlandGradient * i5 * s0);
@@ -49,7 +49,7 @@ template <bool kMixed> void weighRange(const WeighArgs& a, int begin, int end) {
                 x = hn::MulAdd(c, dx, x);
                 y = hn::MulAdd(c, dy, y);
                 z = hn::MulAdd(c, dz, z);
-                square = hn::MulAdd(hn::Mul(c, gather(a.invDensity, entry)), hn::Mul(d, r2), square);
+                if (kSquare) square = hn::MulAdd(hn::Mul(c, gather(a.invDensity, entry)), hn::Mul(d, r2), square);
             }
             // Its own share: W(0) = k / h^3.
             F32 self = load(a.volume + row);
@@ -63,10 +63,15 @@ template <bool kMixed> void weighRange(const WeighArgs& a, int begin, int end) {
 }
 
 void weighAny(const WeighArgs& a, int begin, int end) {
-    if (a.support > 0)
-        weighRange<false>(a, begin, end);
-    else
-        weighRange<true>(a, begin, end);
+    // The sum of squares, which gathers one more number a pair, is for movers only.
+    const int middle = begin > a.moverGroups ? begin : end < a.moverGroups ? end : a.moverGroups;
+    if (a.support > 0) {
+        weighRange<false, true>(a, begin, middle);
+        weighRange<false, false>(a, middle, end);
+    } else {
+        weighRange<true, true>(a, begin, middle);
+        weighRange<true, false>(a, middle, end);
+    }
 }
 
 } // namespace HWY_NAMESPACE

@@ -58,7 +58,8 @@ constexpr float kTolerated = 0.04f;
 
 // A wall in contact stands in for the layers of the lattice that it replaces, wherever between the standoff and one
 // spacing the particle rests: the density map, made for pressure, would call a particle at 0.3 spacings overfull.
-float contact(float distanceInSpacings) { return std::clamp((1.5f - distanceInSpacings) / 0.7f, 0.0f, 1.0f); }
+constexpr float kContactReach = 1.5f;
+float contact(float distanceInSpacings) { return std::clamp((kContactReach - distanceInSpacings) / 0.7f, 0.0f, 1.0f); }
 
 } // namespace
 
@@ -70,29 +71,10 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
         float reach = 0;
         for (int i = begin; i < end; ++i) {
             const Vec4 x = particles.position[static_cast<size_t>(i)];
-            around.lower = {std::min(around.lower.x, x.x), std::min(around.lower.y, x.y),
-                            std::min(around.lower.z, x.z)};
-            around.upper = {std::max(around.upper.x, x.x), std::max(around.upper.y, x.y),
-                            std::max(around.upper.z, x.z)};
-            reach = std::max(reach, x.w);
+            around.grow(x.xyz()), reach = std::max(reach, kContactReach / kSupport * x.w);
         }
-        // Colliders that may touch this block; more than fit are asked for every row.
-        constexpr int kNear = 16;
-        int near[kNear], nearCount = 0;
-        bool everyCollider = false;
-        for (int c = 0; c < colliderCount && !everyCollider; ++c) {
-            if (!colliders[c].alive) continue;
-            const Box b = colliders[c].bounds();
-            if (b.lower.x > around.upper.x + reach || b.upper.x < around.lower.x - reach ||
-                b.lower.y > around.upper.y + reach || b.upper.y < around.lower.y - reach ||
-                b.lower.z > around.upper.z + reach || b.upper.z < around.lower.z - reach)
-                continue;
-            if (nearCount == kNear)
-                everyCollider = true;
-            else
-                near[nearCount++] = c;
-        }
-        const int walls = everyCollider ? colliderCount : nearCount;
+        WallFinder walls;
+        walls.gather(colliders, nullptr, colliderCount, around, reach);
         int exposed = 0;
         float lastVolume = 0, edge = 0; // most rows are of one size
         for (int i = begin; i < end; ++i) {
@@ -103,16 +85,14 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
             particles.normal[k] = {};
             particles.flags[k] = static_cast<uint8_t>(particles.flags[k] & ~kSurface);
             if (1 - share <= kArea[0].at && length(gradient) * h < kLeastGradient) continue;
-            for (int w = 0; w < walls; ++w) {
-                const Collider& wall = colliders[everyCollider ? w : near[w]];
-                if (!wall.alive) continue;
-                Vec3 n;
-                const float a = contact(wall.distance(particles.position[k].xyz(), n) * (kSupport / h));
-                if (a == 0) continue;
-                // Divided, not added: the shares of bare sides multiply to a good approximation.
-                share /= 1 - kFaceMissing * a;
-                gradient = gradient - (kFaceGradient * a / h) * n;
-            }
+            walls.forNear(particles.position[k].xyz(), kContactReach / kSupport * h,
+                          [&](float distance, Vec3 n, const Collider&) {
+                              const float a = contact(distance * (kSupport / h));
+                              if (a == 0) return;
+                              // Divided, not added: the shares of bare sides multiply to a good approximation.
+                              share /= 1 - kFaceMissing * a;
+                              gradient = gradient - (kFaceGradient * a / h) * n;
+                          });
             const float steep = length(gradient) * h;
             const float crowding = share / (1 - interpolate(kBySlope, steep / share));
             const float missing = 1 - share / std::max(1.0f, crowding - kTolerated);

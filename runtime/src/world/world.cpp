@@ -234,12 +234,14 @@ void World::refreshExposure() {
 }
 
 void World::fillMassArrays() {
-    for (int i = 0; i < particles.count; ++i) {
-        const size_t k = static_cast<size_t>(i);
-        const float density = materials[particles.material[k]].def.density;
-        volume_[k] = particles.velocity[k].w / density;
-        invDensity_[k] = particles.fixed(i) ? 0.0f : 1 / density;
-    }
+    tasks.forBlocks(particles.count, kRowBlock, [&](int begin, int end, int, int) {
+        for (int i = begin; i < end; ++i) {
+            const size_t k = static_cast<size_t>(i);
+            const float density = materials[particles.material[k]].def.density;
+            volume_[k] = particles.velocity[k].w / density;
+            invDensity_[k] = particles.fixed(i) ? 0.0f : 1 / density;
+        }
+    });
     for (int i = particles.count; i < particles.count + Particles::kPadding; ++i)
         volume_[static_cast<size_t>(i)] = invDensity_[static_cast<size_t>(i)] = 0;
 }
@@ -282,8 +284,8 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
 void World::holdAndRelease(float dt) {
     ++stepsSinceRelabel_;
     const bool relabel = holdStale_ && stepsSinceRelabel_ >= kRelabelInterval;
-    const HoldResult r = hold_.update(
-        {particles, neighbors_, materials.data(), colliders.data(), static_cast<int>(colliders.size()), dt, relabel});
+    const HoldResult r = hold_.update({particles, neighbors_, materials.data(), colliders.data(),
+                                       static_cast<int>(colliders.size()), tasks, dt, relabel});
     if (relabel) holdStale_ = false, stepsSinceRelabel_ = 0;
     if (r.released > 0) holdStale_ = true;
     if (r.changed()) listsStale_ = true;
