@@ -30,13 +30,6 @@ bool nearWall(const WallFinder& walls, Vec3 p, float reach) {
     return near;
 }
 
-template <class F> void forNeighbors(const Neighbors& nb, int i, F&& f) {
-    const uint32_t g = static_cast<uint32_t>(i) >> 3, lane = static_cast<uint32_t>(i) & 7;
-    const uint32_t* e = nb.entries.data() + nb.first[g] + lane;
-    for (uint32_t k = 0; k < nb.width[g]; ++k, e += 8)
-        if (!f(*e >> 4)) return;
-}
-
 } // namespace
 
 void Hold::gather(const HoldFrame& f, int begin, int end, WallFinder& walls) const {

@@ -80,7 +80,7 @@ bool outside(const Box& b, Vec3 p, float margin) {
 Motion::Motion(Allocator& a)
     : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), held_(a), wallGradient_(a), trait_(a),
       point_(a), coefficient_(a), wallDrag_(a), diagonal_(a), before_(a), residual_(a), direction_(a), image_(a),
-      target_(a), sums_(a) {}
+      target_(a), seen_(a), piece_(a), sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
@@ -145,7 +145,7 @@ void Motion::begin(const MotionFrame& f) {
             Contact found[kContacts];
             const int n =
                 walls.empty() ? 0 : findContacts(walls, x, std::max(1.0f, kAdhesionReach / kSupport) * h, found);
-            contactCount_[i] = static_cast<uint8_t>(n), sums.b += n;
+            contactCount_[i] = static_cast<uint8_t>(n);
             for (int k = 0; k < n; ++k) {
                 const size_t c = i * kContacts + static_cast<size_t>(k);
                 contact_[c] = {found[k].normal.x, found[k].normal.y, found[k].normal.z, found[k].distance};
@@ -190,9 +190,8 @@ void Motion::begin(const MotionFrame& f) {
     });
 
     double total = 0;
-    leaning_ = p.moverCount < p.count;
     for (const BlockSums& s : sums_) {
-        total += s.a, leaning_ |= s.b > 0;
+        total += s.a;
         stats_.maxCompression = std::max(stats_.maxCompression, s.c);
         stats_.apparentViscosity = std::max(stats_.apparentViscosity, s.d);
     }

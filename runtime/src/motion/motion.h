@@ -58,6 +58,7 @@ public:
 private:
     bool touches(size_t i) const { return contactCount_[i] || held_[i].w < INFINITY; }
     void holdAtWalls(size_t i, Vec4& velocity, float h, float dt) const;
+    void returnMomentum(const MotionFrame& f);
     void applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end);
 
     // What one block of rows found, put together in block order so that workers do not change the bits.
@@ -67,7 +68,6 @@ private:
     };
 
     MotionStats stats_;
-    bool leaning_ = false; // something touches a wall or is held
     Array<Box> colliderBounds_;
     Array<Vec4> contact_;            // kContacts per mover: xyz outward normal, w distance in m; nearest first
     Array<uint8_t> contactAdhesive_; // per contact
@@ -81,7 +81,9 @@ private:
     Array<Vec4> wallDrag_;     // two per mover: xx yy zz, xy xz yz of the no-slip block, kg
     Array<Vec4> diagonal_;     // per mover: 1 / diagonal of the viscous matrix, 1/kg
     Array<Vec4> before_, residual_, direction_, image_;
-    Array<Vec4> target_; // per row: position at the end of the sub-step before particles are moved apart
+    Array<Vec4> target_;    // per row: position at the end of the sub-step before particles are moved apart
+    Array<uint8_t> seen_;   // per mover, of the search for pieces
+    Array<uint32_t> piece_; // rows, piece after piece
     Array<BlockSums> sums_;
 };
 

@@ -85,4 +85,12 @@ template <class F> void Neighbors::forCandidates(int firstKind, Vec3 p, float ra
     }
 }
 
+// Calls f(j) for the neighbours j of row i in ascending order until it returns false; rows from `count` on are dummies.
+template <class F> void forNeighbors(const Neighbors& nb, int i, F&& f) {
+    const uint32_t g = static_cast<uint32_t>(i) >> 3, lane = static_cast<uint32_t>(i) & 7;
+    const uint32_t* e = nb.entries.data() + nb.first[g] + lane;
+    for (uint32_t k = 0; k < nb.width[g]; ++k, e += 8)
+        if (!f(*e >> 4)) return;
+}
+
 } // namespace thaw
