@@ -4,7 +4,7 @@
 
 #include "base/kernel.h"
 #include "heat/heat.h"
-#include "particles/exposure.h"
+#include "neighbors/exposure.h"
 
 #include <cmath>
 #include <functional>

@@ -385,7 +385,7 @@ TEST_CASE("heat: part of the rays each step, all within the round") {
         f->refresh();
     }
     for (size_t i = 0; i < part.size(); ++i)
-        fresh[part.particles.id[i]] = (part.particles.flags[i] & kSurface) && part.particles.irradiance[i] == 0;
+        fresh[part.particles.id[i]] = (part.particles.flags[i] & kSurface) && part.particles.rayMemory[i] == 0;
     const std::vector<double> a = absorbed(full), b = absorbed(part);
     CHECK(part.heat.stats().raysReduced);
     int lights = 0;

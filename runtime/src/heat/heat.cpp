@@ -32,7 +32,7 @@ constexpr int kSubCycles = 8;
 constexpr int kImplicitIterations = 30;
 constexpr double kImplicitTolerance = 1e-3;
 
-// Particles::irradiance remembers, from the last time rays were cast for a particle, which of the first kRemembered
+// Particles::rayMemory remembers, from the last time rays were cast for a particle, which of the first kRemembered
 // sources it saw and how long ago that is: (1 + age) 2^16 + one bit per source, a whole number below 2^22 and so exact
 // in a float; 0 when nothing is known. Rays to the sources beyond are cast in every step.
 constexpr int kRemembered = 16;
@@ -204,7 +204,7 @@ void Heat::radiation(const HeatFrame& f) {
         if ((p.flags[k] & kSurface) && p.normal[k].w > 0)
             m.exposed.push(i);
         else
-            p.irradiance[k] = 0;
+            p.rayMemory[k] = 0;
     }
     const int exposed = static_cast<int>(m.exposed.size());
     if (exposed == 0) return;
@@ -225,7 +225,7 @@ void Heat::radiation(const HeatFrame& f) {
             bool lit = false;
             for (int s = 0; s < f.sourceCount && !lit; ++s)
                 lit = shines(f.sources[s]) && look(f.sources[s], x.xyz(), p.normal[row], dx).flux != 0;
-            const float memory = p.irradiance[row];
+            const float memory = p.rayMemory[row];
             m.priority[at] = !lit ? kNoRay : known(memory) ? static_cast<uint8_t>(1 + ageOf(memory)) : kUnknown;
         }
     });
@@ -279,7 +279,7 @@ void Heat::radiation(const HeatFrame& f) {
                 if (m.priority[at] == kNoRay) continue;
                 const size_t row = static_cast<size_t>(m.exposed[at]);
                 const bool fresh = m.priority[at] == kUnknown || s >= kRemembered;
-                if (!fresh && !(seenOf(p.irradiance[row]) >> s & 1)) continue;
+                if (!fresh && !(seenOf(p.rayMemory[row]) >> s & 1)) continue;
                 const View v = look(f.sources[s], p.position[row].xyz(), p.normal[row], spacingOf(row));
                 if (v.flux == 0) continue;
                 if (!fresh) {
@@ -293,7 +293,7 @@ void Heat::radiation(const HeatFrame& f) {
         }
         for (int e = begin; e < end; ++e) {
             const size_t at = static_cast<size_t>(e), row = static_cast<size_t>(m.exposed[at]);
-            float& memory = p.irradiance[row];
+            float& memory = p.rayMemory[row];
             if (m.priority[at] == kNoRay)
                 memory = 0;
             else if (m.priority[at] == kUnknown)

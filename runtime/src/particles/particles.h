@@ -28,7 +28,7 @@ enum ParticleFlag : uint8_t {
     X(float, pressure)       /* Pa, warm start of the next step */                                                     \
     X(float, stiffness)      /* Jacobi coefficient of the last step, 0 when there was none */                          \
     X(float,                                                                                                           \
-      irradiance)   /* memory of the last rays, see heat.cpp: age, and one bit per source that was seen; 0 unknown */  \
+      rayMemory)    /* memory of the last rays, see heat.cpp: age, and one bit per source that was seen; 0 unknown */  \
     X(uint32_t, id) /* stable, never reused */                                                                         \
     X(uint16_t, body)                                                                                                  \
     X(uint8_t, material)                                                                                               \

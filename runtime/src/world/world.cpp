@@ -3,7 +3,7 @@
 #include "world/world.h"
 
 #include "base/kernel.h"
-#include "particles/exposure.h"
+#include "neighbors/exposure.h"
 
 #include <chrono>
 

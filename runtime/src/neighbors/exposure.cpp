@@ -10,7 +10,7 @@
 // lattices cut by spheres (radius 5 to 20 spacings, on and off centre) and by cubes in any rotation, on bodies made of
 // shells, on cubes and on jittered ones. -ln(1 - u) is exact for cubes but 30 % too much for cut spheres, |grad| exact
 // for tilted planes but 15 % too little for a cube of ten and nothing at all for a film.
-#include "particles/exposure.h"
+#include "neighbors/exposure.h"
 
 #include "base/kernel.h"
 #include "base/math.h"
