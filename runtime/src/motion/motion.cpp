@@ -80,7 +80,7 @@ bool outside(const Box& b, Vec3 p, float margin) {
 Motion::Motion(Allocator& a)
     : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), held_(a), wallGradient_(a), trait_(a),
       point_(a), coefficient_(a), wallDrag_(a), diagonal_(a), before_(a), residual_(a), direction_(a), image_(a),
-      target_(a), seen_(a), piece_(a), sums_(a) {}
+      target_(a), piece_(a), queue_(a), sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
@@ -90,8 +90,8 @@ void Motion::begin(const MotionFrame& f) {
     const size_t rows = static_cast<size_t>(p.count) + Particles::kPadding;
     const size_t movers = static_cast<size_t>(8 * f.neighbors.moverGroups);
     contact_.resizeRaw(movers * kContacts), contactAdhesive_.resizeRaw(movers * kContacts);
-    contactCount_.resizeRaw(movers), held_.resizeRaw(movers), wallGradient_.resizeRaw(movers),
-        wallDrag_.resizeRaw(2 * movers);
+    contactCount_.resizeRaw(movers), held_.resizeRaw(movers), piece_.resizeRaw(movers), queue_.resizeRaw(movers),
+        wallGradient_.resizeRaw(movers), wallDrag_.resizeRaw(2 * movers);
     diagonal_.resizeRaw(movers), before_.resizeRaw(movers), residual_.resizeRaw(movers), image_.resizeRaw(movers);
     trait_.resizeRaw(rows), point_.resizeRaw(rows), direction_.resizeRaw(rows), target_.resizeRaw(rows);
     coefficient_.resizeRaw(f.neighbors.entries.size());
@@ -151,6 +151,7 @@ void Motion::begin(const MotionFrame& f) {
                 contact_[c] = {found[k].normal.x, found[k].normal.y, found[k].normal.z, found[k].distance};
                 contactAdhesive_[c] = found[k].adhesive;
             }
+            piece_[i] = held_[i].w > 0 || (n && found[0].distance < h) ? kLeaning : kUnknown;
             held_[i] = heldSurface(held_[i], h);
             float solid = 0;
             Vec3 gradient;

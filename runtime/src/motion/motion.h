@@ -81,9 +81,11 @@ private:
     Array<Vec4> wallDrag_;     // two per mover: xx yy zz, xy xz yz of the no-slip block, kg
     Array<Vec4> diagonal_;     // per mover: 1 / diagonal of the viscous matrix, 1/kg
     Array<Vec4> before_, residual_, direction_, image_;
-    Array<Vec4> target_;    // per row: position at the end of the sub-step before particles are moved apart
-    Array<uint8_t> seen_;   // per mover, of the search for pieces
-    Array<uint32_t> piece_; // rows, piece after piece
+    Array<Vec4> target_; // per row: position at the end of the sub-step before particles are moved apart
+    // Whether a mover's piece hangs on a wall or on something held: kLeaning when it does itself, the rest is searched.
+    enum Piece : uint8_t { kUnknown, kLeaning, kAfloat };
+    Array<Piece> piece_;    // per mover
+    Array<uint32_t> queue_; // rows of the piece in hand
     Array<BlockSums> sums_;
 };
 

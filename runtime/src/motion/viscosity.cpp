@@ -45,31 +45,29 @@ void Motion::applyViscosity(const MotionFrame& f, const Vec4* velocity, int begi
 // m/s^2.
 void Motion::returnMomentum(const MotionFrame& f) {
     Particles& p = f.particles;
-    const uint32_t movers = static_cast<uint32_t>(p.moverCount), count = static_cast<uint32_t>(p.count);
-    seen_.assign(movers, 0);
-    piece_.resizeRaw(movers);
+    const uint32_t movers = static_cast<uint32_t>(p.moverCount);
+    // Most movers lean themselves, or a neighbour of theirs does: the search ends where it meets the first that leans.
     for (uint32_t seed = 0; seed < movers; ++seed) {
-        if (seen_[seed]) continue;
+        if (piece_[seed] != kUnknown) continue;
         size_t size = 0;
-        bool leans = false;
-        piece_[size++] = seed, seen_[seed] = 1;
-        for (size_t head = 0; head < size; ++head) {
-            const size_t i = piece_[head];
-            for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c)
-                leans |= contact_[c].w < p.position[i].w;
-            forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
-                if (j >= movers)
-                    leans |= j < count;
-                else if (!seen_[j])
-                    seen_[j] = 1, piece_[size++] = j;
-                return j < count;
+        bool leaning = false;
+        queue_[size++] = seed, piece_[seed] = kAfloat;
+        for (size_t head = 0; head < size && !leaning; ++head)
+            forNeighbors(f.neighbors, static_cast<int>(queue_[head]), [&](uint32_t j) {
+                if (j >= movers) return false; // from here on held rows, known to lean on, and dummies
+                if (piece_[j] == kAfloat) return true;
+                leaning = piece_[j] == kLeaning;
+                if (!leaning) piece_[j] = kAfloat, queue_[size++] = j;
+                return !leaning;
             });
+        if (leaning) {
+            for (size_t n = 0; n < size; ++n) piece_[queue_[n]] = kLeaning;
+            continue;
         }
-        if (leans) continue;
 
         double mass = 0, lost[3] = {}, center[3] = {};
         for (size_t n = 0; n < size; ++n) {
-            const size_t i = piece_[n];
+            const size_t i = queue_[n];
             const double m = trait_[i].z;
             const Vec4 x = p.position[i], r = residual_[i];
             mass += m, lost[0] += r.x, lost[1] += r.y, lost[2] += r.z;
@@ -79,7 +77,7 @@ void Motion::returnMomentum(const MotionFrame& f) {
         // Angular: inertia about the centre, each particle a cube, so that a pair and a thread have one too.
         double I[3][3] = {}, L[3] = {};
         for (size_t n = 0; n < size; ++n) {
-            const size_t i = piece_[n];
+            const size_t i = queue_[n];
             const double m = trait_[i].z, edge = static_cast<double>(p.position[i].w) / kSupport,
                          own = m * edge * edge / 6;
             const double d[3] = {p.position[i].x - center[0], p.position[i].y - center[1], p.position[i].z - center[2]};
@@ -105,7 +103,7 @@ void Motion::returnMomentum(const MotionFrame& f) {
         const Vec3 drift{static_cast<float>(lost[0] / mass), static_cast<float>(lost[1] / mass),
                          static_cast<float>(lost[2] / mass)};
         for (size_t n = 0; n < size; ++n) {
-            const size_t i = piece_[n];
+            const size_t i = queue_[n];
             const Vec3 d{static_cast<float>(p.position[i].x - center[0]),
                          static_cast<float>(p.position[i].y - center[1]),
                          static_cast<float>(p.position[i].z - center[2])};

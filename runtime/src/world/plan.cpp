@@ -60,6 +60,8 @@ constexpr int kQualityCount = static_cast<int>(sizeof(kQualities) / sizeof(kQual
 constexpr float kFill = 0.80f;      // of the budget, predicted: leaves room for what no prediction sees
 constexpr float kClimbFill = 0.70f; // dead band against going up and down
 constexpr int kClimbAfter = 30;     // good frames
+// What an exposed particle costs radiation without a ray of its own (it shades others), in rays.
+constexpr float kRayShare = 0.25f;
 
 thawWork clip(const Quality& q, const thawWork& limit) {
     return {std::min(q.subSteps, limit.subSteps), std::min(q.pressure, limit.pressureIterations),
@@ -77,7 +79,7 @@ float Governor::predict(const Needs& n, const thawWork& w, int subStepsWanted) c
     if (!n.timeScaleZero && (n.sourceOn || n.unequal || n.awayFromAmbient)) {
         // The peak frame counts, not the mean over the interval: a budget is kept in every frame.
         ms += particles * perHeat_;
-        if (n.sourceOn) ms += static_cast<float>(n.exposed) * w.rayRefresh * perRay_;
+        if (n.sourceOn) ms += static_cast<float>(n.exposed) * (kRayShare + w.rayRefresh) * perRay_;
     }
     if (n.movers > 0) {
         const float its = std::min(static_cast<float>(w.viscosityIterations), viscosityPerSubStep_ * 1.25f + 1);
@@ -124,7 +126,7 @@ void Governor::learn(const Cost& c) {
         blend(perParticle_, s[thawStage_neighbors], n * c.subSteps);
         blend(perExposure_, s[thawStage_exposure] + s[thawStage_phase] + s[thawStage_stats], n);
     }
-    if (c.rays > 0) blend(perRay_, s[thawStage_radiation], c.rays);
+    if (c.rays > 0) blend(perRay_, s[thawStage_radiation], c.rays + kRayShare * static_cast<double>(c.exposed));
     if (c.heatRan) blend(perHeat_, s[thawStage_conduction] + s[thawStage_loss], n);
     if (m > 0) {
         blend(perMover_, s[thawStage_forces] + s[thawStage_collision], m);

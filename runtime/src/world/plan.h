@@ -43,7 +43,7 @@ private:
     // Milliseconds per unit, running estimates; start values from a 2-core machine, replaced within a few frames.
     float perParticle_ = 8e-5f;     // lists and sort, per particle and sub-step
     float perExposure_ = 2e-5f;     // exposure, hold and stats, per particle
-    float perRay_ = 4e-4f;          // per exposed particle refreshed
+    float perRay_ = 4e-4f;          // per ray; a quarter of it per exposed particle
     float perHeat_ = 4e-5f;         // conduction, loss, integration, per particle
     float perMover_ = 8e-5f;        // forces, collision, per mover and sub-step
     float perViscosity_ = 2.5e-5f;  // per mover and iteration
