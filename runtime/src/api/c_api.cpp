@@ -10,6 +10,7 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <system_error>
 
@@ -21,6 +22,14 @@ struct thawWorld {
 namespace {
 
 using thaw::World;
+
+// C lets a host store any int in an enum; reading that as the enum is undefined in C++.
+template <class Enum> int valueOf(const Enum& e) {
+    int value;
+    static_assert(sizeof e == sizeof value);
+    std::memcpy(&value, &e, sizeof value);
+    return value;
+}
 
 // Collects the first complaint about the arguments of one call.
 class Check {
@@ -171,9 +180,10 @@ void checkWork(Check& c, const thawWork& w) {
 void checkBudget(Check& c, const thawBudget& b) {
     c.initialised("budget", &b);
     if (!c.ok()) return;
-    if (b.mode != thawBudget_work && b.mode != thawBudget_milliseconds)
-        c.fail(thawResult_invalidArgument, "budget.mode: is not a thawBudgetMode, got %d", static_cast<int>(b.mode));
-    if (b.mode == thawBudget_milliseconds) c.range("budget.milliseconds", b.milliseconds, 1e-6, 1e4);
+    const int mode = valueOf(b.mode);
+    if (mode != thawBudget_work && mode != thawBudget_milliseconds)
+        c.fail(thawResult_invalidArgument, "budget.mode: is not a thawBudgetMode, got %d", mode);
+    if (mode == thawBudget_milliseconds) c.range("budget.milliseconds", b.milliseconds, 1e-6, 1e4);
     checkWork(c, b.work);
 }
 
@@ -422,16 +432,16 @@ thawResult thawCreateCollider(thawWorld* world, const thawColliderDef* def, thaw
         c.initialised("colliderDef", def);
         if (!c.ok()) return;
         if (!outId) c.fail(thawResult_invalidArgument, "outId: is NULL");
-        if (def->type < thawCollider_plane || def->type > thawCollider_mesh)
-            c.fail(thawResult_invalidArgument, "type: is not a thawColliderType, got %d", static_cast<int>(def->type));
+        const int type = valueOf(def->type);
+        if (type < thawCollider_plane || type > thawCollider_mesh)
+            c.fail(thawResult_invalidArgument, "type: is not a thawColliderType, got %d", type);
         c.finite("position", def->position, 1e5);
         c.rotation("rotation", def->rotation);
-        if (def->type == thawCollider_box || def->type == thawCollider_sphere)
-            c.range("size.x", def->size.x, 1e-6, 1e4);
-        if (def->type == thawCollider_box)
+        if (type == thawCollider_box || type == thawCollider_sphere) c.range("size.x", def->size.x, 1e-6, 1e4);
+        if (type == thawCollider_box)
             c.range("size.y", def->size.y, 1e-6, 1e4), c.range("size.z", def->size.z, 1e-6, 1e4);
-        if (def->type == thawCollider_mesh) c.range("scale", def->scale, 1e-6, 1e6);
-        if (c.ok() && def->type == thawCollider_mesh) c.mesh("mesh", def->mesh);
+        if (type == thawCollider_mesh) c.range("scale", def->scale, 1e-6, 1e6);
+        if (c.ok() && type == thawCollider_mesh) c.mesh("mesh", def->mesh);
         if (!c.ok()) return;
         std::string message;
         uint32_t index1 = 0;
