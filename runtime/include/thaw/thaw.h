@@ -5,11 +5,12 @@
  *
  * Conventions that hold for every function:
  *  - SI units, kelvin, seconds; right-handed; +y is up in the default gravity.
- *  - A world is a pointer that the host owns. What is in a world is an 8-byte id by value: all zero is null, a stale id and
- *    the id of another world are refused.
- *  - Definitions are filled by the library (thawInit*): fill, change what you like, pass. A definition that was not filled
- *    is refused. Pointers in a definition are read during the call only.
- *  - Nothing throws, prints or aborts. A refused call changes nothing, and thawWorld_GetLastError names the field and value.
+ *  - A world is a pointer that the host owns. What is in a world is an 8-byte id by value: all zero is null; a stale id
+ *    and the id of another world are refused.
+ *  - Definitions are filled by the library (thawInit*): fill, change what you like, pass. A definition that was not
+ *    filled is refused. Pointers in a definition are read during the call only.
+ *  - Nothing throws, prints or aborts. A refused call changes nothing, and thawWorld_GetLastError names the field and
+ *    the value.
  *  - A world is used from one thread at a time; calls that take a const world may run together between steps; different
  *    worlds are independent of each other. There is no global state.
  *  - Views (const pointers into a world) stay valid until the next call that takes that world without const.
@@ -56,11 +57,11 @@ typedef enum thawResult {
 /* Bits that thawWorld_Step returns. The step always finishes; the bits say what it had to give up. */
 typedef enum thawStepStatus {
     thawStep_ok = 0,
-    thawStep_refused = 1 << 0,             /* an argument was refused, nothing was stepped: see thawWorld_GetLastError */
-    thawStep_iterationsClipped = 1 << 1,   /* the viscosity solve stopped at its cap before it met its tolerance */
-    thawStep_subStepsClipped = 1 << 2,     /* depth or speed asked for more sub-steps than the plan allowed */
-    thawStep_velocityClamped = 1 << 3,     /* some particle was faster than the speed limit and was slowed */
-    thawStep_neighborsClipped = 1 << 4,    /* some particle had more neighbours than a list holds */
+    thawStep_refused = 1 << 0,           /* an argument was refused, nothing was stepped: see thawWorld_GetLastError */
+    thawStep_iterationsClipped = 1 << 1, /* the viscosity solve stopped at its cap before it met its tolerance */
+    thawStep_subStepsClipped = 1 << 2,   /* depth or speed asked for more sub-steps than the plan allowed */
+    thawStep_velocityClamped = 1 << 3,   /* some particle was faster than the speed limit and was slowed */
+    thawStep_neighborsClipped = 1 << 4,  /* some particle had more neighbours than a list holds */
     thawStep_badParticlesRemoved = 1 << 5, /* some particle became not finite and was taken out; see the ledger */
     thawStep_raysReduced = 1 << 6,         /* only part of the visibility rays was refreshed */
     thawStep_overBudget = 1 << 7           /* the step took longer than its budget in milliseconds */
@@ -78,19 +79,35 @@ THAW_API const char* thawStepStatusString(uint32_t bit);
 /* ---- handles and small types ------------------------------------------------------------------------------------ */
 
 typedef struct thawWorld thawWorld;
-typedef struct thawMaterialId { uint32_t index1; uint16_t world, generation; } thawMaterialId;
-typedef struct thawBodyId { uint32_t index1; uint16_t world, generation; } thawBodyId;
-typedef struct thawColliderId { uint32_t index1; uint16_t world, generation; } thawColliderId;
-typedef struct thawHeatSourceId { uint32_t index1; uint16_t world, generation; } thawHeatSourceId;
+typedef struct thawMaterialId {
+    uint32_t index1;
+    uint16_t world, generation;
+} thawMaterialId;
+typedef struct thawBodyId {
+    uint32_t index1;
+    uint16_t world, generation;
+} thawBodyId;
+typedef struct thawColliderId {
+    uint32_t index1;
+    uint16_t world, generation;
+} thawColliderId;
+typedef struct thawHeatSourceId {
+    uint32_t index1;
+    uint16_t world, generation;
+} thawHeatSourceId;
 
-typedef struct thawVec3 { float x, y, z; } thawVec3;
-typedef struct thawQuat { float x, y, z, w; } thawQuat; /* unit quaternion; {0,0,0,1} is no rotation */
+typedef struct thawVec3 {
+    float x, y, z;
+} thawVec3;
+typedef struct thawQuat {
+    float x, y, z, w;
+} thawQuat; /* unit quaternion; {0,0,0,1} is no rotation */
 
 /* ---- hooks ------------------------------------------------------------------------------------------------------ */
 
-/* Memory of what a world steps: particles, lists, scratch, surface. Both NULL: the C++ runtime's. alloc must return memory
- * aligned to `alignment` (a power of two, at most 64) or NULL. Called from the thread that calls thaw only. Creating bodies and
- * colliders also uses the C++ runtime while it works, and rays use Embree's own memory. */
+/* Memory of what a world steps: particles, lists, scratch, surface. Both NULL: the C++ runtime's. alloc must return
+ * memory aligned to `alignment` (a power of two, at most 64) or NULL. Called from the thread that calls thaw only.
+ * Creating bodies and colliders also uses the C++ runtime while it works, and rays use Embree's own memory. */
 typedef struct thawAllocator {
     void* (*alloc)(size_t size, size_t alignment, void* user);
     void (*free)(void* memory, size_t size, void* user);
@@ -107,9 +124,9 @@ typedef struct thawLogger {
 
 typedef void thawTask(void* context);
 
-/* The host's threads. enqueue hands over one task and returns a handle for finish, or NULL when it already ran it inline;
- * finish blocks until that task is done. Both are called from the thread that calls thaw, at most workerCount - 1 tasks are
- * in flight. All NULL: a pool of workerCount - 1 own threads. */
+/* The host's threads. enqueue hands over one task and returns a handle for finish, or NULL when it already ran it
+ * inline; finish blocks until that task is done. Both are called from the thread that calls thaw, at most workerCount -
+ * 1 tasks are in flight. All NULL: a pool of workerCount - 1 own threads. */
 typedef struct thawTaskSystem {
     int workerCount; /* threads that take part, the caller included; range 1..64, default 1 */
     void* (*enqueue)(thawTask* task, void* context, void* user);
@@ -121,24 +138,25 @@ typedef struct thawTaskSystem {
 
 typedef struct thawWorldDef {
     uint32_t structSize, cookie;
-    float particleSpacing;      /* m, distance of neighbouring particles at level 0; range 1e-4..1, default 0.002 */
-    int32_t maxParticles;       /* range 8..4000000, default 32768; memory for them is taken at creation */
-    int32_t maxMaterials;       /* range 1..255, default 16 */
-    int32_t maxBodies;          /* range 1..65535, default 64 */
-    int32_t maxColliders;       /* range 1..65535, default 64 */
-    int32_t maxHeatSources;     /* range 1..1024, default 16 */
-    thawVec3 gravity;           /* m/s^2, each |.| <= 1000, default (0, -9.81, 0) */
-    float ambientTemperature;   /* K, range 0..1e5, default 293.15; air and far surroundings */
-    float convection;           /* W/(m^2 K), heat transfer to ambient air; range 0..1e4, default 10 */
-    float thermalTimeScale;     /* heat seconds per second of motion; range 0..1e5, default 1. Real melting takes minutes. */
+    float particleSpacing;    /* m, distance of neighbouring particles at level 0; range 1e-4..1, default 0.002 */
+    int32_t maxParticles;     /* range 8..4000000, default 32768; memory for them is taken at creation */
+    int32_t maxMaterials;     /* range 1..255, default 16 */
+    int32_t maxBodies;        /* range 1..65535, default 64 */
+    int32_t maxColliders;     /* range 1..65535, default 64 */
+    int32_t maxHeatSources;   /* range 1..1024, default 16 */
+    thawVec3 gravity;         /* m/s^2, each |.| <= 1000, default (0, -9.81, 0) */
+    float ambientTemperature; /* K, range 0..1e5, default 293.15; air and far surroundings */
+    float convection;         /* W/(m^2 K), heat transfer to ambient air; range 0..1e4, default 10 */
+    float
+        thermalTimeScale; /* heat seconds per second of motion; range 0..1e5, default 1. Real melting takes minutes. */
     thawAllocator allocator;
     thawLogger logger;
     thawTaskSystem tasks;
 } thawWorldDef;
 
 THAW_API void thawInitWorldDef(thawWorldDef* def);
-/* Makes a world. On success *outWorld is set and is to be given to thawDestroyWorld. On failure *outWorld is NULL and, when
- * message is not NULL, up to messageSize - 1 characters say why. */
+/* Makes a world. On success *outWorld is set and is to be given to thawDestroyWorld. On failure *outWorld is NULL and,
+ * when message is not NULL, up to messageSize - 1 characters say why. */
 THAW_API thawResult thawCreateWorld(const thawWorldDef* def, thawWorld** outWorld, char* message, size_t messageSize);
 /* NULL is allowed. Ends the world's own threads. */
 THAW_API void thawDestroyWorld(thawWorld* world);
@@ -162,20 +180,20 @@ typedef enum thawMaterialPreset {
 
 typedef struct thawMaterialDef {
     uint32_t structSize, cookie;
-    float density;              /* kg/m^3, range 1..3e4. One value for both phases: volume does not change on melting */
-    float solidus, liquidus;    /* K, melting begins and ends; 0 < solidus <= liquidus <= 1e5 */
-    float latentHeat;           /* J/kg, range 0..1e7 */
+    float density;           /* kg/m^3, range 1..3e4. One value for both phases: volume does not change on melting */
+    float solidus, liquidus; /* K, melting begins and ends; 0 < solidus <= liquidus <= 1e5 */
+    float latentHeat;        /* J/kg, range 0..1e7 */
     float specificHeatSolid, specificHeatLiquid; /* J/(kg K), range 1..1e5 */
     float conductivitySolid, conductivityLiquid; /* W/(m K), range 0..1e4 */
-    float viscositySolid;       /* Pa s at liquid fraction 0 for mush and pieces that lost their hold; range 1e-3..1e7 */
-    float viscosityLiquid;      /* Pa s at liquid fraction 1; range 1e-4..1e6. log-blended between (RESEARCH 3.4) */
-    float absorptivity;         /* 1, share of incoming radiation that is taken up; range 0..1 */
-    float emissivity;           /* 1, of thermal radiation; range 0..1 */
-    float cohesion;             /* 1, pull between particles in units of g / 10; range 0..20; makes beads */
-    float adhesion;             /* 1, pull toward solid wax and walls in units of g; range 0..5; makes films cling */
-    float setFraction;          /* liquid fraction below which liquid that touches a solid sets; range 0..releaseFraction */
-    float releaseFraction;      /* liquid fraction above which solid lets go; range setFraction..1 */
-    thawVec3 color;             /* linear RGB 0..1, for whoever draws it */
+    float viscositySolid;  /* Pa s at liquid fraction 0 for mush and pieces that lost their hold; range 1e-3..1e7 */
+    float viscosityLiquid; /* Pa s at liquid fraction 1; range 1e-4..1e6. log-blended between (RESEARCH 3.4) */
+    float absorptivity;    /* 1, share of incoming radiation that is taken up; range 0..1 */
+    float emissivity;      /* 1, of thermal radiation; range 0..1 */
+    float cohesion;        /* 1, pull between particles in units of g / 10; range 0..20; makes beads */
+    float adhesion;        /* 1, pull toward solid wax and walls in units of g; range 0..5; makes films cling */
+    float setFraction;     /* liquid fraction below which liquid that touches a solid sets; range 0..releaseFraction */
+    float releaseFraction; /* liquid fraction above which solid lets go; range setFraction..1 */
+    thawVec3 color;        /* linear RGB 0..1, for whoever draws it */
 } thawMaterialDef;
 
 /* Fills with a preset. An unknown preset fills with wax. Sources of the numbers: third_party_notes/data_sources.md. */
@@ -212,11 +230,11 @@ typedef struct thawMeshReport {
 typedef struct thawBodyDef {
     uint32_t structSize, cookie;
     thawMaterialId material;
-    thawMesh mesh;         /* closed, or nearly so; filled with particles */
-    thawVec3 position;     /* m, default 0 */
-    thawQuat rotation;     /* default none */
-    float scale;           /* 1, range 1e-6..1e6, default 1 */
-    float temperature;     /* K at the start, range 0..1e5; default: the world's ambient (NaN stands for it) */
+    thawMesh mesh;     /* closed, or nearly so; filled with particles */
+    thawVec3 position; /* m, default 0 */
+    thawQuat rotation; /* default none */
+    float scale;       /* 1, range 1e-6..1e6, default 1 */
+    float temperature; /* K at the start, range 0..1e5; default: the world's ambient (NaN stands for it) */
 } thawBodyDef;
 
 THAW_API void thawInitBodyDef(thawBodyDef* def);
@@ -226,12 +244,12 @@ THAW_API thawResult thawCreateBody(thawWorld* world, const thawBodyDef* def, tha
 THAW_API thawResult thawDestroyBody(thawWorld* world, thawBodyId id);
 
 typedef struct thawBodyState {
-    int32_t particles;      /* that belong to it now */
-    float mass;             /* kg */
-    float meltedFraction;   /* 1, mass-weighted liquid fraction */
-    float meanTemperature;  /* K, mass-weighted */
-    thawVec3 center;        /* m, centre of mass */
-    thawVec3 lower, upper;  /* m, bounds of the particle centres */
+    int32_t particles;     /* that belong to it now */
+    float mass;            /* kg */
+    float meltedFraction;  /* 1, mass-weighted liquid fraction */
+    float meanTemperature; /* K, mass-weighted */
+    thawVec3 center;       /* m, centre of mass */
+    thawVec3 lower, upper; /* m, bounds of the particle centres */
 } thawBodyState;
 THAW_API thawResult thawBody_GetState(const thawWorld* world, thawBodyId id, thawBodyState* out);
 
@@ -247,13 +265,13 @@ typedef enum thawColliderType {
 typedef struct thawColliderDef {
     uint32_t structSize, cookie;
     thawColliderType type;
-    thawVec3 position;  /* m */
+    thawVec3 position; /* m */
     thawQuat rotation;
-    thawVec3 size;      /* m, see the type; each > 0, at most 1e4 */
-    thawMesh mesh;      /* for thawCollider_mesh; copied */
-    float scale;        /* 1, of the mesh; range 1e-6..1e6, default 1 */
-    bool adhesive;      /* melt clings to it; default true. Floors are not clung to whatever is set. */
-    bool occluder;      /* shades heat sources; default true */
+    thawVec3 size; /* m, see the type; each > 0, at most 1e4 */
+    thawMesh mesh; /* for thawCollider_mesh; copied */
+    float scale;   /* 1, of the mesh; range 1e-6..1e6, default 1 */
+    bool adhesive; /* melt clings to it; default true. Floors are not clung to whatever is set. */
+    bool occluder; /* shades heat sources; default true */
 } thawColliderDef;
 
 THAW_API void thawInitColliderDef(thawColliderDef* def, thawColliderType type);
@@ -285,27 +303,27 @@ typedef enum thawStage {
     thawStage_exposure,   /* which particles are surface; normal and area */
     thawStage_radiation,  /* rays and irradiance from the sources */
     thawStage_conduction,
-    thawStage_loss,       /* emission and convection to ambient */
-    thawStage_phase,      /* temperature, liquid fraction, letting go and setting */
-    thawStage_forces,     /* gravity, cohesion, adhesion */
+    thawStage_loss,   /* emission and convection to ambient */
+    thawStage_phase,  /* temperature, liquid fraction, letting go and setting */
+    thawStage_forces, /* gravity, cohesion, adhesion */
     thawStage_viscosity,
     thawStage_pressure,
-    thawStage_collision,  /* walls, swept motion, positions */
-    thawStage_stats,      /* ledger and counters */
+    thawStage_collision, /* walls, swept motion, positions */
+    thawStage_stats,     /* ledger and counters */
     thawStage_count
 } thawStage;
 
 /* Why a stage runs or does not. */
 typedef enum thawReason {
-    thawReason_needed = 0,      /* the scene asks for it */
-    thawReason_noParticles,     /* nothing there */
-    thawReason_nothingMoves,    /* no liquid and no loose piece */
-    thawReason_nothingChanged,  /* last step's result still holds */
-    thawReason_noSource,        /* no enabled source with power */
-    thawReason_nothingExposed,  /* no surface that loses or takes up heat */
-    thawReason_equilibrium,     /* all at ambient temperature and no source */
-    thawReason_timeScaleZero,   /* heat is switched off by thermalTimeScale = 0 */
-    thawReason_interval         /* not due in this step: see heatInterval */
+    thawReason_needed = 0,     /* the scene asks for it */
+    thawReason_noParticles,    /* nothing there */
+    thawReason_nothingMoves,   /* no liquid and no loose piece */
+    thawReason_nothingChanged, /* last step's result still holds */
+    thawReason_noSource,       /* no enabled source with power */
+    thawReason_nothingExposed, /* no surface that loses or takes up heat */
+    thawReason_equilibrium,    /* all at ambient temperature and no source */
+    thawReason_timeScaleZero,  /* heat is switched off by thermalTimeScale = 0 */
+    thawReason_interval        /* not due in this step: see heatInterval */
 } thawReason;
 /* A stage's name and a reason in words; "" when out of range. Static storage. */
 THAW_API const char* thawStageName(thawStage stage);
@@ -337,8 +355,8 @@ THAW_API void thawInitBudget(thawBudget* budget);
 typedef struct thawPlan {
     bool enabled[thawStage_count];
     thawReason reason[thawStage_count];
-    thawWork work;              /* as chosen; feed it back with thawBudget_work for the same bits */
-    float predictedMs;          /* of the governor, 0 in work mode */
+    thawWork work;     /* as chosen; feed it back with thawBudget_work for the same bits */
+    float predictedMs; /* of the governor, 0 in work mode */
 } thawPlan;
 THAW_API void thawWorld_GetPlan(const thawWorld* world, thawPlan* out);
 /* The plan that a step with this budget would run now; steps nothing. */
@@ -357,10 +375,10 @@ typedef enum thawParticleFlags {
 /* Structure of arrays, `count` long each. Order changes from step to step; ids are stable. */
 typedef struct thawParticleView {
     int32_t count;
-    int32_t moving;               /* the first `moving` rows moved in the last step, the rest was held; flags are newer */
-    const float* positions;       /* x y z r: m; r is the radius of the particle's sphere of influence for drawing */
-    const float* velocities;      /* x y z m: m/s, and mass in kg */
-    const float* temperatures;    /* K */
+    int32_t moving;            /* the first `moving` rows moved in the last step, the rest was held; flags are newer */
+    const float* positions;    /* x y z r: m; r is the radius of the particle's sphere of influence for drawing */
+    const float* velocities;   /* x y z m: m/s, and mass in kg */
+    const float* temperatures; /* K */
     const float* liquidFractions; /* 0..1 */
     const float* normals;         /* x y z a: outward unit normal and exposed area in m^2; zero inside */
     const uint32_t* ids;          /* stable, never used twice in a world */
@@ -391,14 +409,14 @@ THAW_API thawResult thawWorld_ExtractSurface(thawWorld* world, const thawSurface
 
 typedef struct thawLedger {
     double massAdded, massRemoved, massNow; /* kg */
-    double energyAdded;    /* J, enthalpy that bodies brought, relative to each material's solidus */
-    double energyRemoved;  /* J, taken out with destroyed bodies and bad particles */
-    double absorbed;       /* J from sources */
-    double emitted;        /* J by thermal radiation, net of what ambient sends back */
-    double convected;      /* J to the air */
-    double energyNow;      /* J, sum of m H */
-    double massError;      /* |massNow - added + removed| / added */
-    double energyError;    /* |energyNow - (added - removed + absorbed - emitted - convected)| / largest sum moved */
+    double energyAdded;                     /* J, enthalpy that bodies brought, relative to each material's solidus */
+    double energyRemoved;                   /* J, taken out with destroyed bodies and bad particles */
+    double absorbed;                        /* J from sources */
+    double emitted;                         /* J by thermal radiation, net of what ambient sends back */
+    double convected;                       /* J to the air */
+    double energyNow;                       /* J, sum of m H */
+    double massError;                       /* |massNow - added + removed| / added */
+    double energyError; /* |energyNow - (added - removed + absorbed - emitted - convected)| / largest sum moved */
 } thawLedger;
 THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);
 
@@ -408,15 +426,15 @@ typedef struct thawCounters {
     int32_t subSteps, pressureIterations, viscosityIterations; /* of the last step; iterations summed over sub-steps */
     int32_t rays, neighborsMax;
     float neighborsMean;
-    float maxSpeed;            /* m/s */
-    float maxCompression;      /* 1, largest density error of moving particles */
-    float meanCompression;     /* 1 */
-    float apparentViscosity;   /* Pa s, largest viscosity floor that the time step imposed on moving liquid; 0 if none */
-    float meltedFraction;      /* 1, of all mass */
+    float maxSpeed;          /* m/s */
+    float maxCompression;    /* 1, largest density error of moving particles */
+    float meanCompression;   /* 1 */
+    float apparentViscosity; /* Pa s, largest viscosity floor that the time step imposed on moving liquid; 0 if none */
+    float meltedFraction;    /* 1, of all mass */
     float minTemperature, maxTemperature; /* K */
     uint64_t steps;
-    double time;               /* s, of motion */
-    size_t memoryBytes;        /* taken from the allocator now */
+    double time;        /* s, of motion */
+    size_t memoryBytes; /* taken from the allocator now */
 } thawCounters;
 THAW_API void thawWorld_GetCounters(const thawWorld* world, thawCounters* out);
 

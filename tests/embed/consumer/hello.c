@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 the thaw authors
  * SPDX-License-Identifier: MIT
  *
- * A host in plain C that knows nothing but the installed header: a cube of wax under a lamp must take up heat, melt and run.
+ * A host in plain C that knows nothing but the installed header: a cube of wax under a lamp must take up heat, melt and
+ * run.
  */
 #include <stdio.h>
 #include <thaw/thaw.h>
@@ -17,8 +18,9 @@
     } while (0)
 
 int main(void) {
-    static const float vertices[] = {-0.01f, 0, -0.01f, 0.01f, 0, -0.01f, 0.01f, 0, 0.01f, -0.01f, 0, 0.01f,
-                                     -0.01f, 0.02f, -0.01f, 0.01f, 0.02f, -0.01f, 0.01f, 0.02f, 0.01f, -0.01f, 0.02f, 0.01f};
+    static const float vertices[] = {-0.01f, 0,      -0.01f, 0.01f, 0,      -0.01f, 0.01f,  0,
+                                     0.01f,  -0.01f, 0,      0.01f, -0.01f, 0.02f,  -0.01f, 0.01f,
+                                     0.02f,  -0.01f, 0.01f,  0.02f, 0.01f,  -0.01f, 0.02f,  0.01f};
     static const uint32_t indices[] = {0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6, 0, 5, 1, 0, 4, 5,
                                        3, 2, 6, 3, 6, 7, 0, 3, 7, 0, 7, 4, 1, 5, 6, 1, 6, 2};
     char message[256] = "";
@@ -60,7 +62,8 @@ int main(void) {
     CHECK(thawCreateHeatSource(world, &lampDef, &lamp) == thawResult_ok);
 
     uint64_t before = thawWorld_GetStateHash(world);
-    for (int frame = 0; frame < 120; ++frame) CHECK((thawWorld_Step(world, 1.0f / 60.0f, NULL) & thawStep_refused) == 0);
+    for (int frame = 0; frame < 120; ++frame)
+        CHECK((thawWorld_Step(world, 1.0f / 60.0f, NULL) & thawStep_refused) == 0);
 
     thawBodyState state;
     thawLedger ledger;
