@@ -40,6 +40,7 @@ void addCapture(CLI::App& app, int& exitCode);
 void addMelt(CLI::App& app, int& exitCode);
 void addInfo(CLI::App& app, int& exitCode);
 void addBench(CLI::App& app, int& exitCode);
+void addValidate(CLI::App& app, int& exitCode);
 void addMakeMesh(CLI::App& app, int& exitCode);
 
 } // namespace thaw::player

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
     addMelt(app, exitCode);
     addInfo(app, exitCode);
     addBench(app, exitCode);
+    addValidate(app, exitCode);
     addMakeMesh(app, exitCode);
     try {
         if (argc > 1 && argv[1][0] != '-') {

@@ -230,11 +230,13 @@ typedef struct thawMeshReport {
 typedef struct thawBodyDef {
     uint32_t structSize, cookie;
     thawMaterialId material;
-    thawMesh mesh;     /* closed, or nearly so; filled with particles */
-    thawVec3 position; /* m, default 0 */
-    thawQuat rotation; /* default none */
-    float scale;       /* 1, range 1e-6..1e6, default 1 */
-    float temperature; /* K at the start, range 0..1e5; default: the world's ambient (NaN stands for it) */
+    thawMesh mesh;            /* closed, or nearly so; filled with particles */
+    thawVec3 position;        /* m, default 0 */
+    thawQuat rotation;        /* default none */
+    float scale;              /* 1, range 1e-6..1e6, default 1 */
+    float temperature;        /* K at the start, range 0..1e5; default: the world's ambient (NaN stands for it) */
+    thawVec3 velocity;        /* m/s at the start, of what is liquid or free; each |.| <= 1000, default 0 */
+    thawVec3 angularVelocity; /* rad/s about the centre of mass, right-handed; each |.| <= 1000, default 0 */
 } thawBodyDef;
 
 THAW_API void thawInitBodyDef(thawBodyDef* def);

@@ -387,6 +387,8 @@ thawResult thawCreateBody(thawWorld* world, const thawBodyDef* def, thawBodyId* 
         c.rotation("rotation", def->rotation);
         c.range("scale", def->scale, 1e-6, 1e6);
         if (!std::isnan(def->temperature)) c.range("temperature", def->temperature, 0, 1e5);
+        c.finite("velocity", def->velocity, 1000);
+        c.finite("angularVelocity", def->angularVelocity, 1000);
         if (c.ok()) c.mesh("mesh", def->mesh);
         if (!c.ok()) return;
         std::string message;

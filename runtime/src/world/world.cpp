@@ -377,13 +377,21 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     const Vec3 gravity{def.gravity.x, def.gravity.y, def.gravity.z};
     float top = INFINITY;
     for (const Vec3& x : points) top = std::min(top, dot(x, gravity));
+    const Vec3 velocity{d.velocity.x, d.velocity.y, d.velocity.z};
+    const Vec3 spin{d.angularVelocity.x, d.angularVelocity.y, d.angularVelocity.z};
+    double sum[3] = {};
+    for (const Vec3& x : points) sum[0] += x.x, sum[1] += x.y, sum[2] += x.z;
+    const double share = 1 / static_cast<double>(points.size());
+    const Vec3 center{static_cast<float>(share * sum[0]), static_cast<float>(share * sum[1]),
+                      static_cast<float>(share * sum[2])};
     for (const Vec3& x : points) {
         const size_t k = static_cast<size_t>(particles.count++);
 #define X(type, name) particles.name[k] = type{};
         THAW_PARTICLE_FIELDS(X)
 #undef X
         particles.position[k] = {x.x, x.y, x.z, kSupport * def.particleSpacing};
-        particles.velocity[k] = {0, 0, 0, mass};
+        const Vec3 v = liquid ? velocity + cross(spin, x - center) : Vec3{};
+        particles.velocity[k] = {v.x, v.y, v.z, mass};
         particles.velocityChange[k] = {0, 0, 0, liquid ? kStiffBody : 1.0f};
         particles.pressure[k] = liquid ? m.def.density * (dot(x, gravity) - top) : 0.0f;
         particles.enthalpy[k] = H;
