@@ -9,7 +9,7 @@
 
 namespace thaw::player {
 
-Lab::Lab(float spacing, int maxParticles, thawVec3 gravity, float timeScale) : spacing_(spacing) {
+Lab::Lab(float spacing, int maxParticles, thawVec3 gravity, float timeScale, int threads) : spacing_(spacing) {
     thawInitBudget(&budget);
     thawWorldDef def;
     thawInitWorldDef(&def);
@@ -17,7 +17,7 @@ Lab::Lab(float spacing, int maxParticles, thawVec3 gravity, float timeScale) : s
     def.maxParticles = maxParticles;
     def.gravity = gravity;
     def.thermalTimeScale = timeScale;
-    def.tasks.workerCount = defaultThreads();
+    def.tasks.workerCount = threads > 0 ? threads : defaultThreads();
     char message[256];
     if (thawCreateWorld(&def, &world_, message, sizeof message) != thawResult_ok) throw LabError(message);
 }

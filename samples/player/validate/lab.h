@@ -16,10 +16,12 @@ struct LabError : std::runtime_error {
 };
 
 // A world to try things in, through the public header as a host has it. Without heat unless told otherwise
-// (thermalTimeScale 0); steps are 1/60 s with the default budget. Throws LabError with the library's message.
+// (thermalTimeScale 0); threads 0: as many as the machine offers a game; steps are 1/60 s with the default budget.
+// Throws LabError with the library's message.
 class Lab {
 public:
-    explicit Lab(float spacing, int maxParticles = 20000, thawVec3 gravity = {0, -9.81f, 0}, float timeScale = 0);
+    explicit Lab(float spacing, int maxParticles = 20000, thawVec3 gravity = {0, -9.81f, 0}, float timeScale = 0,
+                 int threads = 0);
     ~Lab();
     Lab(const Lab&) = delete;
     Lab& operator=(const Lab&) = delete;
