@@ -70,6 +70,8 @@ struct Collider {
     Placement placement;
     bool adhesive = true;
     bool occluder = true;
+    float slipLength = 0.0f; // m, range 0..1e4
+    float friction = 0.5f;   // range 0..10
     bool visible = true;
     thawVec3 color{0.35f, 0.33f, 0.31f}; // linear RGB 0..1
 };

@@ -168,6 +168,8 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
             d.scale = s;
         }
         d.adhesive = c.adhesive;
+        d.slipLength = c.slipLength;
+        d.friction = c.friction;
         d.occluder = c.occluder;
         thawColliderId id{};
         thawMeshReport report{};

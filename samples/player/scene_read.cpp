@@ -491,6 +491,8 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         readPlacement(r, collider.placement);
         r.flag("adhesive", collider.adhesive);
         r.flag("occluder", collider.occluder);
+        r.real("slipLength", collider.slipLength, 0.0, 1e4, "m");
+        r.real("friction", collider.friction, 0.0, 10.0);
         r.flag("visible", collider.visible);
         r.vector("color", collider.color, 0.0, 1.0);
         r.done();

@@ -191,6 +191,8 @@ std::string writeScene(const Scene& scene) {
                  addPlacement(o, collider.placement);
                  o.add("adhesive", boolean(collider.adhesive));
                  o.add("occluder", boolean(collider.occluder));
+                 o.add("slipLength", shortest(collider.slipLength));
+                 o.add("friction", shortest(collider.friction));
                  o.add("visible", boolean(collider.visible));
                  o.add("color", vector(collider.color));
                  return o.end();

@@ -269,17 +269,40 @@ typedef struct thawColliderDef {
     thawColliderType type;
     thawVec3 position; /* m */
     thawQuat rotation;
-    thawVec3 size; /* m, see the type; each > 0, at most 1e4 */
-    thawMesh mesh; /* for thawCollider_mesh; copied */
-    float scale;   /* 1, of the mesh; range 1e-6..1e6, default 1 */
-    bool adhesive; /* melt clings to it; default true. Floors are not clung to whatever is set. */
-    bool occluder; /* shades heat sources; default true */
+    thawVec3 size;      /* m, see the type; each > 0, at most 1e4 */
+    thawMesh mesh;      /* for thawCollider_mesh; copied */
+    float scale;        /* 1, of the mesh; range 1e-6..1e6, default 1 */
+    bool adhesive;      /* melt clings to it; default true. Floors are not clung to whatever is set. */
+    bool occluder;      /* shades heat sources; default true */
+    float slipLength;   /* m, Navier slip of liquids: their speed would be the wall's so far behind it; range 0..1e4,
+                           default 0 (sticks), 1e4 slides freely */
+    float friction;     /* 1, Coulomb coefficient for solid pieces; range 0..10, default 0.5 */
+    bool reportImpulse; /* measure what acts on it, for thawCollider_GetImpulse; default false */
 } thawColliderDef;
 
 THAW_API void thawInitColliderDef(thawColliderDef* def, thawColliderType type);
 THAW_API thawResult thawCreateCollider(thawWorld* world, const thawColliderDef* def, thawColliderId* outId,
                                        thawMeshReport* report);
 THAW_API thawResult thawDestroyCollider(thawWorld* world, thawColliderId id);
+/* Kinematic motion: where the collider shall be at the end of the next step, which gives it the velocity that takes it
+ * there: straight, and turning the short way round (less than half a turn a step). Held material that hangs on it goes
+ * along rigidly; what it runs into is pushed. To be called before every step in which it moves; without, it stands
+ * still. position: m, each within 1e5. */
+THAW_API thawResult thawCollider_SetTransform(thawWorld* world, thawColliderId id, thawVec3 position,
+                                              thawQuat rotation);
+/* A jump without velocity, at once. What hung on it stays behind; what it lands on is pushed out. */
+THAW_API thawResult thawCollider_Teleport(thawWorld* world, thawColliderId id, thawVec3 position, thawQuat rotation);
+THAW_API thawResult thawCollider_GetTransform(const thawWorld* world, thawColliderId id, thawVec3* position,
+                                              thawQuat* rotation);
+
+/* What acted on a collider during the last step: pressure, drag, adhesion and contact of the melt, weight and inertia
+ * of what hangs on it. Divided by the time step: force in N and torque in N m, for a host's rigid body. */
+typedef struct thawColliderImpulse {
+    thawVec3 linear;  /* N s */
+    thawVec3 angular; /* N m s, about the collider's position */
+} thawColliderImpulse;
+/* invalidArgument for a collider that was made without reportImpulse. */
+THAW_API thawResult thawCollider_GetImpulse(const thawWorld* world, thawColliderId id, thawColliderImpulse* out);
 
 /* ---- heat sources ----------------------------------------------------------------------------------------------- */
 

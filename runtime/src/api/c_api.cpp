@@ -187,6 +187,12 @@ void checkBudget(Check& c, const thawBudget& b) {
     checkWork(c, b.work);
 }
 
+void checkPlace(const World& w, Check& c, thawColliderId id, thawVec3 position, thawQuat rotation) {
+    if (!alive(w, id, w.colliderSlots)) c.fail(thawResult_staleId, "collider: is not alive in this world");
+    c.finite("position", position, 1e5);
+    c.rotation("rotation", rotation);
+}
+
 thawBudget defaultBudget() {
     thawBudget b{};
     b.structSize = sizeof b, b.cookie = thaw::kDefCookie;
@@ -424,6 +430,7 @@ void thawInitColliderDef(thawColliderDef* def, thawColliderType type) {
     def->size = {1, 1, 1};
     def->scale = 1;
     def->adhesive = def->occluder = true;
+    def->friction = 0.5f;
 }
 
 thawResult thawCreateCollider(thawWorld* world, const thawColliderDef* def, thawColliderId* outId,
@@ -443,6 +450,8 @@ thawResult thawCreateCollider(thawWorld* world, const thawColliderDef* def, thaw
         if (type == thawCollider_box)
             c.range("size.y", def->size.y, 1e-6, 1e4), c.range("size.z", def->size.z, 1e-6, 1e4);
         if (type == thawCollider_mesh) c.range("scale", def->scale, 1e-6, 1e6);
+        c.range("slipLength", def->slipLength, 0, 1e4);
+        c.range("friction", def->friction, 0, 10);
         if (c.ok() && type == thawCollider_mesh) c.mesh("mesh", def->mesh);
         if (!c.ok()) return;
         std::string message;
@@ -460,6 +469,41 @@ thawResult thawDestroyCollider(thawWorld* world, thawColliderId id) {
         if (!alive(w, id, w.colliderSlots)) return c.fail(thawResult_staleId, "collider: is not alive in this world");
         w.removeCollider(id.index1 - 1);
     });
+}
+
+thawResult thawCollider_SetTransform(thawWorld* world, thawColliderId id, thawVec3 position, thawQuat rotation) {
+    return guarded(world, [&](World& w, Check& c) {
+        checkPlace(w, c, id, position, rotation);
+        if (c.ok()) w.setColliderTarget(id.index1 - 1, thaw::toTransform(position, rotation, 1));
+    });
+}
+
+thawResult thawCollider_Teleport(thawWorld* world, thawColliderId id, thawVec3 position, thawQuat rotation) {
+    return guarded(world, [&](World& w, Check& c) {
+        checkPlace(w, c, id, position, rotation);
+        if (c.ok()) w.teleportCollider(id.index1 - 1, thaw::toTransform(position, rotation, 1));
+    });
+}
+
+thawResult thawCollider_GetTransform(const thawWorld* world, thawColliderId id, thawVec3* position,
+                                     thawQuat* rotation) {
+    if (!world || !position || !rotation) return thawResult_invalidArgument;
+    if (!alive(world->world, id, world->world.colliderSlots)) return thawResult_staleId;
+    const thaw::Transform& t = world->world.colliders[id.index1 - 1].transform;
+    *position = {t.position.x, t.position.y, t.position.z};
+    *rotation = {t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w};
+    return thawResult_ok;
+}
+
+thawResult thawCollider_GetImpulse(const thawWorld* world, thawColliderId id, thawColliderImpulse* out) {
+    if (!world || !out) return thawResult_invalidArgument;
+    *out = {};
+    if (!alive(world->world, id, world->world.colliderSlots)) return thawResult_staleId;
+    const thaw::Collider& c = world->world.colliders[id.index1 - 1];
+    if (!c.report) return thawResult_invalidArgument;
+    const auto f = [&](int k) { return static_cast<float>(c.impulse[k]); };
+    *out = {{f(0), f(1), f(2)}, {f(3), f(4), f(5)}};
+    return thawResult_ok;
 }
 
 void thawInitHeatSourceDef(thawHeatSourceDef* def) {

@@ -4,43 +4,88 @@
 
 #include "geometry/mesh_fill.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 namespace thaw {
 
-// One static obstacle as a signed distance, positive outside of it.
+// One obstacle as a signed distance, positive outside of it. It stands still, or moves through a sub-step from
+// `transform` by `shift` and `turn`.
 struct Collider {
     thawColliderType type = thawCollider_plane;
-    Transform transform;
+    Transform transform; // now; during a sub-step where it was at its start
     Vec3 size;
     bool adhesive = true, occluder = true;
     bool alive = false;
-    std::shared_ptr<const DistanceGrid> grid; // mesh: world space, transform already applied
-    std::shared_ptr<const CleanMesh> mesh;    // mesh: for rays
+    float slipLength = 0;  // m, how far behind the wall the liquid's velocity would be the wall's; 0 sticks
+    float friction = 0.5f; // Coulomb coefficient of what is solid or rigid on it
+    std::shared_ptr<const DistanceGrid> grid; // mesh: scaled, but neither turned nor moved
+    std::shared_ptr<const CleanMesh> mesh;    // mesh: of the same space, for rays
+
+    bool report = false;    // the host asks for its impulse
+    bool kinematic = false; // the host has moved it: what hangs on it is kept apart from what hangs on the rest
+    bool hasTarget = false; // where it shall be at the end of the next step
+    Transform target;       // valid with hasTarget
+    Transform next;         // at the end of the sub-step in hand
+    bool moves = false;     // shift, turn and rate are of the sub-step in hand, or the last one
+    Vec3 shift;             // m
+    Quat turn;              // about transform.position
+    float rate = 0;         // 1/s, one over the length of the sub-step
+    double impulse[6] = {}; // N s and N m s about transform.position, of the last step, with `report`
+
+    // Way of the material point at x in the sub-step, m; exact also for large turns.
+    Vec3 displacement(Vec3 x) const {
+        const Vec3 u{turn.x, turn.y, turn.z}, t = 2 * cross(u, x - transform.position);
+        return shift + (turn.w * t + cross(u, t));
+    }
+    Vec3 velocityAt(Vec3 x) const { return moves ? rate * displacement(x) : Vec3{}; } // m/s
+    // No point within `radius` of x goes farther in the sub-step.
+    float reachOfMotion(Vec3 x, float radius) const;
+    // Its place a share of the sub-step later.
+    Transform at(float share) const;
+    // Sets shift, turn and rate for a sub-step of dt that ends at `to`.
+    void moveTo(const Transform& to, float dt);
+
     // Distance from p to the surface in m, > 0 outside; normal is the unit outward direction (gradient) there. Sizes
     // are in m: the transform's scale is not applied to them. Infinity and +y when p is not finite, or a mesh has no
     // grid.
     float distance(Vec3 p, Vec3& normal) const;
+    // The same at a share of the sub-step.
+    float distance(Vec3 p, Vec3& normal, float share) const;
+    // m, how deep its inside is at the least where it is thin; 0 for a mesh, which may have any form.
+    float halfThickness() const {
+        return type == thawCollider_plane    ? INFINITY
+               : type == thawCollider_sphere ? size.x
+               : type == thawCollider_box    ? std::min(size.x, std::min(size.y, size.z))
+                                             : 0;
+    }
     // Bounds, infinite for a plane, empty for a mesh without triangles.
     Box bounds() const;
+    // Bounds of all places in the sub-step.
+    Box sweptBounds() const;
 };
+
+// Place on the straight way from one to the other, turned the short way round.
+Transform between(const Transform& from, const Transform& to, float share);
 
 // The colliders near a block of rows: rows of a block lie together, so most colliders are ruled out once for all.
 class WallFinder {
 public:
-    // Those that some point of the box may be nearer to than `reach`. bounds: of every collider, or null when they are
-    // not at hand.
+    // Those that some point of the box may be nearer to than `reach` in the sub-step. bounds: swept ones of every
+    // collider, or null when they are not at hand.
     void gather(const Collider* colliders, const Box* bounds, int colliderCount, const Box& box, float reach);
     bool empty() const { return count_ == 0; }
+    bool moving() const { return motion_ > 0; }
+    float motion() const { return motion_; } // m, no point of any near the box goes farther in the sub-step
     // Calls f(distance, normal, collider) at p for every one of them, in order of index; f may move p. Those whose
-    // bounds are farther than `reach` may be left out.
-    template <class F> void forNear(const Vec3& p, float reach, F&& f) const {
+    // bounds are farther than `reach` may be left out. Places are those at `share` of the sub-step.
+    template <class F> void forNear(const Vec3& p, float reach, F&& f, float share = 0) const {
         Vec3 n;
         if (all_) {
             for (int c = 0; c < colliderCount_; ++c)
                 if (colliders_[c].alive && !(bounds_ && beyond(bounds_[c], p, reach))) {
-                    const float d = colliders_[c].distance(p, n);
+                    const float d = colliders_[c].distance(p, n, share);
                     f(d, n, colliders_[c]);
                 }
             return;
@@ -49,7 +94,9 @@ public:
             const Near& w = near_[k];
             if (beyond(w.bounds, p, reach)) continue;
             float d;
-            if (w.collider->type == thawCollider_plane)
+            if (w.collider->moves)
+                d = w.collider->distance(p, n, share);
+            else if (w.collider->type == thawCollider_plane)
                 d = dot(w.normal, p - w.collider->transform.position), n = w.normal;
             else
                 d = w.collider->distance(p, n);
@@ -75,6 +122,7 @@ private:
     const Box* bounds_ = nullptr;
     Near near_[kNear];
     int count_ = 0, colliderCount_ = 0;
+    float motion_ = 0;
     bool all_ = false;
 };
 

@@ -259,7 +259,8 @@ void Visibility::setColliders(const Collider* colliders, int count, uint64_t ver
                 rtcReleaseGeometry(g);
                 throw std::bad_alloc();
             }
-            std::copy(o.mesh->vertices.begin(), o.mesh->vertices.end(), static_cast<Vec3*>(v));
+            std::transform(o.mesh->vertices.begin(), o.mesh->vertices.end(), static_cast<Vec3*>(v),
+                           [&](Vec3 x) { return o.transform.position + rotate(o.transform.rotation, x); });
             std::copy(o.mesh->indices.begin(), o.mesh->indices.end(), static_cast<uint32_t*>(i));
             rtcSetGeometryOccludedFilterFunction(g, frontFacesOnly);
             rtcCommitGeometry(g);

@@ -31,6 +31,7 @@ void Motion::forces(const MotionFrame& f) {
                 if (k.w <= kAdhesionFrom * spacing || k.w >= kAdhesionReach * spacing) continue;
                 const float fade = std::min(1.0f, (kAdhesionReach * spacing - k.w) / (kAdhesionFade * spacing));
                 v -= (pull * fade * f.dt) * k.xyz();
+                kick(c, -(pull * fade * f.dt) * k.xyz());
             }
             p.velocity[i].setXyz(v);
         }

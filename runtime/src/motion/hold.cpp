@@ -3,6 +3,7 @@
 #include "motion/hold.h"
 
 #include "base/kernel.h"
+#include "motion/carry.h"
 
 #include <algorithm>
 
@@ -43,6 +44,36 @@ void Hold::gather(const HoldFrame& f, int begin, int end, WallFinder& walls) con
     walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, kFarthest * support);
 }
 
+// Whether a row that is cold enough sets, where colliders are told apart: it rests on what it touches, whether that
+// moves or not. The nearest wall, or else the first held neighbour.
+bool Hold::touchesToldApart(const HoldFrame& f, int row, const WallFinder& walls) {
+    const Particles& p = f.particles;
+    const size_t k = static_cast<size_t>(row);
+    const Vec3 x = p.position[k].xyz(), v = p.velocity[k].xyz();
+    const float spacing = p.position[k].w / kSupport;
+    const auto slow = [&](Vec3 own, float distance, float touch, float restTouch) {
+        const float moved = length(v - own) * f.dt;
+        return moved <= kSlow * spacing && distance < (moved < kRest * spacing ? restTouch : touch) * spacing;
+    };
+    float nearest = INFINITY;
+    bool touches = false;
+    walls.forNear(x, kRestWallTouch * spacing, [&](float distance, Vec3, const Collider& c) {
+        if (!(distance < nearest) || !slow(c.velocityAt(x), distance, kWallTouch, kRestWallTouch)) return;
+        nearest = distance, touches = true;
+        anchor_[k] = toldApart(c) ? static_cast<uint16_t>(&c - f.colliders + 1) : uint16_t{0};
+    });
+    if (!touches)
+        forNeighbors(f.neighbors, row, [&](uint32_t j) {
+            if (j >= static_cast<uint32_t>(p.count) || !(p.flags[j] & kFixed)) return true;
+            const Vec3 d = p.position[j].xyz() - x;
+            const float mean = 0.5f * (1 + p.position[j].w / p.position[k].w);
+            touches = slow(p.velocity[j].xyz(), length(d) / mean, kTouch, kRestTouch);
+            if (touches) anchor_[k] = p.anchor[j];
+            return !touches;
+        });
+    return touches;
+}
+
 // Releases and settings of rows [begin, end) into state_. Reads the flags of others, which nobody changes meanwhile.
 HoldResult Hold::decide(const HoldFrame& f, int begin, int end) {
     Particles& p = f.particles;
@@ -62,6 +93,11 @@ HoldResult Hold::decide(const HoldFrame& f, int begin, int end) {
         if (phi >= m.def.setFraction) continue;
         const float spacing = p.position[k].w / kSupport;
         const float moved = length(p.velocity[k].xyz()) * f.dt;
+        if (f.toldApart) {
+            if (!gathered) gather(f, begin, end, walls), gathered = true;
+            if (touchesToldApart(f, i, walls)) state_[k] = kSet, ++result.set;
+            continue;
+        }
         if (moved > kSlow * spacing) continue;
         const bool rests = moved < kRest * spacing;
         const Vec3 x = p.position[k].xyz();
@@ -145,6 +181,7 @@ HoldResult Hold::update(const HoldFrame& f) {
     Particles& p = f.particles;
     const size_t n = static_cast<size_t>(p.count);
     state_.resizeRaw(n);
+    if (f.toldApart) anchor_.resizeRaw(n);
     queue_.reserve(2 * static_cast<size_t>(p.capacity)); // now, so that looking later allocates nothing
     colliderBounds_.resizeRaw(static_cast<size_t>(f.colliderCount));
     for (int c = 0; c < f.colliderCount; ++c)
@@ -158,7 +195,7 @@ HoldResult Hold::update(const HoldFrame& f) {
 
     const auto letGo = [&](size_t i, float multiplier) {
         p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~kFixed);
-        p.velocity[i].setXyz({});
+        p.anchor[i] = 0; // its velocity stays that of what it hung on
         p.velocityChange[i] = {0, 0, 0, multiplier};
         p.stiffness[i] = 0;
     };
@@ -167,7 +204,10 @@ HoldResult Hold::update(const HoldFrame& f) {
             letGo(i, kStiffStart);
         } else if (state_[i] == kSet) {
             p.flags[i] |= kFixed;
-            p.velocity[i].setXyz({});
+            if (f.toldApart)
+                p.anchor[i] = anchor_[i]; // what it loses of its velocity goes there with the next step
+            else
+                p.velocity[i].setXyz({});
             p.velocityChange[i] = {0, 0, 0, 1};
         }
     }

@@ -27,8 +27,9 @@ struct HoldFrame {
     const Collider* colliders;
     int colliderCount;
     Tasks& tasks;
-    float dt;     // s, of the step
-    bool relabel; // look for pieces that lost their hold
+    float dt;               // s, of the step
+    bool relabel;           // look for pieces that lost their hold
+    bool toldApart = false; // some collider is told apart (carry.h): what sets has to know on what
 };
 
 struct HoldResult {
@@ -46,16 +47,18 @@ struct HoldResult {
 class Hold {
 public:
     explicit Hold(Allocator& allocator)
-        : state_(allocator), queue_(allocator), colliderBounds_(allocator), blocks_(allocator) {}
+        : state_(allocator), anchor_(allocator), queue_(allocator), colliderBounds_(allocator), blocks_(allocator) {}
     HoldResult update(const HoldFrame& f);
 
 private:
     enum : uint8_t { kStay, kRelease, kSet, kReached };
+    bool touchesToldApart(const HoldFrame& f, int row, const WallFinder& walls);
     HoldResult decide(const HoldFrame& f, int begin, int end);
     void reach(const HoldFrame& f);
     void gather(const HoldFrame& f, int begin, int end, WallFinder& walls) const;
 
     Array<uint8_t> state_;
+    Array<uint16_t> anchor_; // per row that sets: what it hangs on then
     Array<uint32_t> queue_;
     Array<Box> colliderBounds_;
     Array<HoldResult> blocks_;

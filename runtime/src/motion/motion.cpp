@@ -16,14 +16,17 @@ struct Contact {
     Vec3 normal;
     float distance;
     bool adhesive;
+    uint16_t collider;
 };
 
 // The nearest walls in reach, nearest first; of equals the one with the lower index.
-int findContacts(const WallFinder& walls, Vec3 p, float reach, Contact (&out)[Motion::kContacts]) {
+int findContacts(const WallFinder& walls, const Collider* colliders, Vec3 p, float reach,
+                 Contact (&out)[Motion::kContacts]) {
     int n = 0;
     walls.forNear(p, reach, [&](float distance, Vec3 normal, const Collider& c) {
-        if (!(distance < reach)) return;
-        const Contact k{normal, distance, c.adhesive};
+        // What comes near within the sub-step is met now.
+        if (!(distance < reach) && !(c.moves && distance - dot(normal, c.displacement(p)) < reach)) return;
+        const Contact k{normal, distance, c.adhesive, static_cast<uint16_t>(&c - colliders)};
         int at = n < Motion::kContacts ? n++ : n;
         if (at == Motion::kContacts && !(k.distance < out[--at].distance)) return;
         for (; at > 0 && k.distance < out[at - 1].distance; --at) out[at] = out[at - 1];
@@ -33,7 +36,8 @@ int findContacts(const WallFinder& walls, Vec3 p, float reach, Contact (&out)[Mo
 }
 
 // Share of the support inside the walls and its gradient; overlapping walls by the product rule.
-void wallFraction(const Contact* c, int n, float h, float& fraction, Vec3& gradient) {
+// share: of each wall along its normal.
+void wallFraction(const Contact* c, int n, float h, float& fraction, Vec3& gradient, float* share) {
     const WallTable& table = wallTable();
     float f[Motion::kContacts], slope[Motion::kContacts], open = 1;
     for (int k = 0; k < n; ++k) {
@@ -44,11 +48,13 @@ void wallFraction(const Contact* c, int n, float h, float& fraction, Vec3& gradi
     }
     gradient = {};
     for (int k = 0; k < n; ++k) {
+        share[k] = 0;
         if (slope[k] == 0) continue;
         float others = slope[k];
         for (int l = 0; l < n; ++l)
             if (l != k) others *= 1 - f[l];
         gradient += others * c[k].normal;
+        share[k] = others;
     }
     fraction = 1 - open;
 }
@@ -78,9 +84,10 @@ bool outside(const Box& b, Vec3 p, float margin) {
 } // namespace
 
 Motion::Motion(Allocator& a)
-    : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), held_(a), wallGradient_(a), trait_(a),
-      point_(a), coefficient_(a), wallDrag_(a), diagonal_(a), before_(a), residual_(a), direction_(a), image_(a),
-      target_(a), piece_(a), queue_(a), sums_(a) {}
+    : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), contactOf_(a), contactSlope_(a),
+      wallVelocity_(a), wallPush_(a), heldVelocity_(a), kick_(a), reportSlot_(a), reports_(a), held_(a),
+      wallGradient_(a), trait_(a), point_(a), coefficient_(a), wallDrag_(a), diagonal_(a), before_(a), residual_(a),
+      direction_(a), image_(a), target_(a), piece_(a), queue_(a), sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
@@ -98,8 +105,24 @@ void Motion::begin(const MotionFrame& f) {
     sums_.assign(static_cast<size_t>(Tasks::blockCount(f.neighbors.moverGroups, kBlock)), {});
 
     colliderBounds_.resizeRaw(static_cast<size_t>(f.colliderCount));
-    for (int c = 0; c < f.colliderCount; ++c)
-        if (f.colliders[c].alive) colliderBounds_[static_cast<size_t>(c)] = f.colliders[c].bounds();
+    reportSlot_.resizeRaw(static_cast<size_t>(f.colliderCount));
+    int reporters = 0;
+    wallsMove_ = thinWalls_ = slippery_ = false;
+    for (int c = 0; c < f.colliderCount; ++c) {
+        const Collider& o = f.colliders[c];
+        reportSlot_[static_cast<size_t>(c)] = o.alive && o.report ? reporters++ : -1;
+        if (!o.alive) continue;
+        colliderBounds_[static_cast<size_t>(c)] = o.sweptBounds();
+        wallsMove_ |= o.moves, slippery_ |= o.slipLength > 0, thinWalls_ |= o.halfThickness() < kThinWall * f.spacing;
+    }
+    reporting_ = reporters > 0;
+    reports_.assign(sums_.size() * static_cast<size_t>(reporters), {});
+    if (reporting_) kick_.assign(movers * kContacts, {});
+    if (reporting_ || wallsMove_ || slippery_)
+        contactOf_.resizeRaw(movers * kContacts), contactSlope_.resizeRaw(movers * kContacts);
+    if (wallsMove_) wallVelocity_.resizeRaw(movers * kContacts), wallPush_.resizeRaw(movers);
+    heldMoves_ = f.heldSpeed > 0;
+    if (heldMoves_) heldVelocity_.resizeRaw(movers);
 
     // Rows that do not move: what their neighbours read of them. A particle that has just set still carries some
     // pressure, which fades (taken away at once, its neighbours would fall freely for a frame).
@@ -111,7 +134,7 @@ void Motion::begin(const MotionFrame& f) {
             const bool real = p.moverCount + r < p.count;
             trait_[i] = {-1, real ? f.materials[p.material[i]].def.cohesion * (0.1f * kGravity) : 0.0f, p.velocity[i].w,
                          p.pressure[i]};
-            p.velocity[i].setXyz({});
+            if (!heldMoves_) p.velocity[i].setXyz({});
             point_[i] = {x.x, x.y, x.z, 0};
             direction_[i] = {};
             target_[i] = {x.x, x.y, x.z, -p.position[i].w};
@@ -132,6 +155,23 @@ void Motion::begin(const MotionFrame& f) {
         WallFinder walls;
         walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, reach);
 
+        if (heldMoves_)
+            for (int r = 8 * begin; r < last; ++r) {
+                // As heavy as they weigh in the density: what is near counts most.
+                const size_t i = static_cast<size_t>(r);
+                const uint32_t g = static_cast<uint32_t>(r) >> 3, lane = static_cast<uint32_t>(r) & 7;
+                const size_t first = f.neighbors.first[g] + lane;
+                Vec3 sum;
+                float weight = 0;
+                for (uint32_t k = 0; k < f.neighbors.width[g]; ++k) {
+                    const uint32_t j = f.neighbors.entries[first + 8 * k] >> 4;
+                    if (j < static_cast<uint32_t>(p.moverCount)) continue;
+                    const float w = -f.neighbors.gradient[first + 8 * k];
+                    sum += w * p.velocity[j].xyz(), weight += w;
+                }
+                sum = weight > 0 ? (1 / weight) * sum : Vec3{};
+                heldVelocity_[i] = {sum.x, sum.y, sum.z, 0};
+            }
         pairHeld({PairLists(f.neighbors), p.position.data(), f.volume, p.moverCount, held_.data()}, begin, end);
         BlockSums sums;
         // Neighbours in memory mostly share material and liquid fraction: the exponential is kept.
@@ -143,8 +183,8 @@ void Motion::begin(const MotionFrame& f) {
             const float h = p.position[i].w, spacing = h / kSupport, density = 1 / f.invDensity[i];
 
             Contact found[kContacts];
-            const int n =
-                walls.empty() ? 0 : findContacts(walls, x, std::max(1.0f, kAdhesionReach / kSupport) * h, found);
+            const float far = std::max(1.0f, kAdhesionReach / kSupport) * h;
+            const int n = walls.empty() ? 0 : findContacts(walls, f.colliders, x, far, found);
             contactCount_[i] = static_cast<uint8_t>(n);
             for (int k = 0; k < n; ++k) {
                 const size_t c = i * kContacts + static_cast<size_t>(k);
@@ -153,9 +193,16 @@ void Motion::begin(const MotionFrame& f) {
             }
             piece_[i] = held_[i].w > 0 || (n && found[0].distance < h) ? kLeaning : kUnknown;
             held_[i] = heldSurface(held_[i], h);
-            float solid = 0;
+            float solid = 0, share[kContacts];
             Vec3 gradient;
-            if (n) wallFraction(found, n, h, solid, gradient);
+            if (n) wallFraction(found, n, h, solid, gradient, share);
+            for (int k = 0; k < n && (reporting_ || wallsMove_ || slippery_); ++k) {
+                const size_t c = i * kContacts + static_cast<size_t>(k);
+                contactOf_[c] = found[k].collider, contactSlope_[c] = share[k];
+                if (!wallsMove_) continue;
+                const Vec3 u = f.colliders[found[k].collider].velocityAt(x);
+                wallVelocity_[c] = {u.x, u.y, u.z, 0};
+            }
             const float error = f.neighbors.volumeFraction[i] + solid - 1;
             wallGradient_[i] = {gradient.x, gradient.y, gradient.z, error};
             sums.a += std::max(error, 0.0f), sums.c = std::max(sums.c, error);
@@ -199,7 +246,7 @@ void Motion::begin(const MotionFrame& f) {
     stats_.meanCompression = static_cast<float>(total / p.moverCount);
 }
 
-void Motion::holdAtWalls(size_t i, Vec4& velocity, float h, float dt) const {
+void Motion::holdAtWalls(size_t i, Vec4& velocity, float h, float dt) {
     const float spacing = h / kSupport;
     Vec3 v = velocity.xyz();
     for (size_t c = i * kContacts, end = c + contactCount_[i]; c < end; ++c) {
@@ -207,16 +254,36 @@ void Motion::holdAtWalls(size_t i, Vec4& velocity, float h, float dt) const {
         const float gap = k.w - kWallStandoff * spacing;
         float need = -gap / dt;
         if (gap < 0) need = std::min(need, kWallRecovery * spacing / dt);
-        const float into = dot(k.xyz(), v);
-        if (into < need) v += (need - into) * k.xyz();
+        float into = dot(k.xyz(), v);
+        if (wallsMove_) into -= dot(k.xyz(), wallVelocity_[c].xyz());
+        if (!(into < need)) continue;
+        v += (need - into) * k.xyz();
+        kick(c, (need - into) * k.xyz());
     }
     // Melt that lies in a pocket of solid may stay there: it is not driven out, it only gets no deeper.
     const Vec4 held = held_[i];
     if (held.w < INFINITY) {
-        const float need = std::min(0.0f, (kHeldStandoff * spacing - held.w) / dt), into = dot(held.xyz(), v);
+        const float need = std::min(0.0f, (kHeldStandoff * spacing - held.w) / dt);
+        float into = dot(held.xyz(), v);
+        if (heldMoves_) into -= dot(held.xyz(), heldVelocity_[i].xyz());
         if (into < need) v += (need - into) * held.xyz();
     }
     velocity.setXyz(v);
+}
+
+void Motion::addImpulses(Collider* colliders, int colliderCount) const {
+    size_t reporters = 0;
+    for (int c = 0; c < colliderCount; ++c) reporters += reportSlot_[static_cast<size_t>(c)] >= 0;
+    for (int c = 0; c < colliderCount; ++c) {
+        const int32_t slot = reportSlot_[static_cast<size_t>(c)];
+        if (slot < 0) continue;
+        for (size_t b = static_cast<size_t>(slot); b < reports_.size(); b += reporters)
+            for (int k = 0; k < 3; ++k) {
+                // The blocks hold what the movers felt.
+                colliders[c].impulse[k] -= reports_[b].linear[k];
+                colliders[c].impulse[3 + k] -= reports_[b].angular[k];
+            }
+    }
 }
 
 int Motion::subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spacing, int limit,
@@ -230,6 +297,8 @@ int Motion::subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spa
     for (int r = p.moverCount; r < p.count; ++r) held.grow(p.position[static_cast<size_t>(r)].xyz());
     float low = INFINITY, high = -INFINITY;
     const Vec3 down = normalizeOr(gravity, {});
+    bool wallsMove = false;
+    for (int c = 0; c < colliderCount; ++c) wallsMove |= colliders[c].alive && colliders[c].moves;
     for (int r = 0; r < p.moverCount; ++r) {
         const size_t i = static_cast<size_t>(r);
         const Vec3 x = p.position[i].xyz(), way = dt * p.velocity[i].xyz();
@@ -243,16 +312,19 @@ int Motion::subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spa
 
         // What will have reached a wall by the end of the step, and how far it goes toward it: sliding along one asks
         // for nothing.
-        if (!(dot(way, way) > kApproachPerStep * kApproachPerStep * d * d)) continue;
+        const bool slow = !(dot(way, way) > kApproachPerStep * kApproachPerStep * d * d);
+        if (slow && !wallsMove) continue;
         float toward = 0;
         for (int c = 0; c < colliderCount; ++c) {
-            if (!colliders[c].alive) continue;
+            if (!colliders[c].alive || (slow && !colliders[c].moves)) continue;
+            const Vec3 relative = colliders[c].moves ? way - colliders[c].displacement(x) : way;
+            if (slow && !(dot(relative, relative) > kApproachPerStep * kApproachPerStep * d * d)) continue;
             Vec3 normal;
-            const float distance = colliders[c].distance(x, normal), into = -dot(normal, way);
+            const float distance = colliders[c].distance(x, normal), into = -dot(normal, relative);
             if (distance - into < d) toward = std::max(toward, into);
         }
         const Vec3 to = x + way;
-        if (outside(held, x, d) && !outside(held, to, d)) toward = std::max(toward, length(way));
+        if (!slow && outside(held, x, d) && !outside(held, to, d)) toward = std::max(toward, length(way));
         int a = 1;
         while (a < kApproachMost && toward > kApproachPerStep * d * static_cast<float>(a)) ++a;
         ++approach[a];

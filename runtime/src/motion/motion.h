@@ -26,12 +26,22 @@ struct MotionFrame {
     Vec3 gravity;
     float spacing; // m, of level 0
     int pressureIterations, viscosityIterations;
+    float heldSpeed = 0; // m/s, of the fastest fixed particle: what hangs on a collider moves with it
 };
 
 struct MotionStats {
     int viscosityIterations = 0;
     bool iterationsClipped = false, velocityClamped = false;
     float maxSpeed = 0, maxCompression = 0, meanCompression = 0, apparentViscosity = 0;
+};
+
+struct ImpulseSums {
+    double linear[3], angular[3]; // N s, N m s about the collider's position
+    void add(Vec3 arm, float mass, Vec3 change) {
+        const double m = mass, x = m * change.x, y = m * change.y, z = m * change.z;
+        linear[0] += x, linear[1] += y, linear[2] += z;
+        angular[0] += arm.y * z - arm.z * y, angular[1] += arm.z * x - arm.x * z, angular[2] += arm.x * y - arm.y * x;
+    }
 };
 
 // The motion of everything that is not fixed, for one sub-step: velocity-based constant-density solve with the geometry
@@ -47,9 +57,12 @@ public:
     void pressure(const MotionFrame& f);  // Jacobi iterations, walls held inside
     void move(const MotionFrame& f);      // positions: swept when fast, minimum distance, out of walls
     const MotionStats& stats() const { return stats_; }
+    // Adds to each reporting collider what the last sub-step's movers did to it.
+    void addImpulses(Collider* colliders, int colliderCount) const;
 
     // How many sub-steps depth (G = g H dt^2 / dx^2) and approach speed ask for in a step of dt, at most `limit`.
-    // Without colliders, only what approaches fixed particles counts as approach.
+    // Without colliders, only what approaches fixed particles counts as approach. Colliders that move do so by their
+    // motion of the whole step.
     static int subStepsWanted(const Particles& particles, float dt, Vec3 gravity, float spacing, int limit,
                               const Collider* colliders = nullptr, int colliderCount = 0);
 
@@ -57,9 +70,20 @@ public:
 
 private:
     bool touches(size_t i) const { return contactCount_[i] || held_[i].w < INFINITY; }
-    void holdAtWalls(size_t i, Vec4& velocity, float h, float dt) const;
+    void holdAtWalls(size_t i, Vec4& velocity, float h, float dt);
+    void meetMovingWalls(const MotionFrame& f);
+    void kick(size_t contact, Vec3 change) {
+        if (reporting_) kick_[contact].setXyz(kick_[contact].xyz() + change);
+    }
     void returnMomentum(const MotionFrame& f);
+    void moveRigidly(const MotionFrame& f, const uint32_t* rows, size_t size, bool leans);
     void applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end);
+
+    struct WallShear {
+        float tangent, normal; // kg: tangent (v - n (n v)) + (tangent + normal) n (n v)
+        Vec3 on(Vec3 n, Vec3 v) const { return tangent * v + (normal * dot(n, v)) * n; }
+    };
+    WallShear wallShear(const MotionFrame& f, size_t mover, size_t contact) const;
 
     // What one block of rows found, put together in block order so that workers do not change the bits.
     struct BlockSums {
@@ -68,10 +92,19 @@ private:
     };
 
     MotionStats stats_;
+    bool wallsMove_ = false, reporting_ = false, thinWalls_ = false, heldMoves_ = false, slippery_ = false;
     Array<Box> colliderBounds_;
     Array<Vec4> contact_;            // kContacts per mover: xyz outward normal, w distance in m; nearest first
     Array<uint8_t> contactAdhesive_; // per contact
     Array<uint8_t> contactCount_;    // per mover
+    Array<uint16_t> contactOf_;      // per contact: the collider
+    Array<float> contactSlope_;      // per contact: its part of the wall gradient along its normal, 1/m
+    Array<Vec4> wallVelocity_;       // per contact, m/s; when walls move
+    Array<Vec4> wallPush_;           // per mover: no-slip block times wall velocity, kg m/s; when walls move
+    Array<Vec4> heldVelocity_;       // per mover: of the fixed particles around it, m/s; when they move
+    Array<Vec4> kick_;               // per contact: what the wall did to the velocity, m/s; when some collider reports
+    Array<int32_t> reportSlot_;      // per collider: its number among those that report, -1: none
+    Array<ImpulseSums> reports_;     // per block and reporting collider
     Array<Vec4> held_;         // per mover: the surface of the fixed particles around it, like a contact; w inf: none
     Array<Vec4> wallGradient_; // per mover: xyz gradient of the wall's volume fraction in 1/m, w C = density error
     Array<Vec4>

@@ -23,6 +23,9 @@ inline constexpr float kAdhesionFrom = 0.5f, kAdhesionReach = 4, kAdhesionFade =
 // A wall whose normal is within this cosine of straight up is a floor: nothing hangs on it.
 inline constexpr float kFloorCosine = 0.7f;
 
+// A wall whose half is thinner than this many spacings is one that a particle could be pushed out of on the wrong side.
+inline constexpr float kThinWall = 0.5f;
+
 // Sub-steps: k = sqrt(G / kDepthPerStep), and so many spacings of travel in each.
 inline constexpr float kDepthPerStep = 15, kApproachPerStep = 1;
 

@@ -8,11 +8,30 @@
 
 namespace thaw {
 
+// The density error that walls bring about by their own motion, in the form in which the iterations take it back
+// whole: they take back only a share of an error that is there already.
+void Motion::meetMovingWalls(const MotionFrame& f) {
+    const float feedback = densityFeedback(f.subSteps);
+    f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
+        for (int r = 8 * begin, last = std::min(8 * end, f.particles.moverCount); r < last; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            float brought = 0;
+            for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c)
+                brought -= f.dt * contactSlope_[c] * dot(contact_[c].xyz(), wallVelocity_[c].xyz());
+            if (brought == 0) continue;
+            float& error = wallGradient_[i].w;
+            error = (error > 0 ? feedback * error : error) + brought;
+            if (error > 0) error /= feedback;
+        }
+    });
+}
+
 void Motion::pressure(const MotionFrame& f) {
     Particles& p = f.particles;
     if (p.moverCount == 0) return;
     const PairLists lists(f.neighbors);
     const float feedback = densityFeedback(f.subSteps), weight = jacobiWeight(f.subSteps) / (f.dt * f.dt);
+    if (wallsMove_) meetMovingWalls(f);
     for (int iteration = 0; iteration < f.pressureIterations; ++iteration) {
         f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
             pairJacobi({lists, p.position.data(), p.velocity.data(), wallGradient_.data(), p.stiffness.data(),
@@ -27,6 +46,16 @@ void Motion::pressure(const MotionFrame& f) {
             }
         });
     }
+    if (!reporting_) return;
+    // Warm start and iterations together have applied the pressure as it is now.
+    f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
+        for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            const float push = f.dt * f.invDensity[i] * p.pressure[i];
+            for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c)
+                kick(c, -(push * contactSlope_[c]) * contact_[c].xyz());
+        }
+    });
 }
 
 } // namespace thaw

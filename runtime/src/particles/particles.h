@@ -31,6 +31,7 @@ enum ParticleFlag : uint8_t {
       rayMemory)    /* memory of the last rays, see heat.cpp: age, and one bit per source that was seen; 0 unknown */  \
     X(uint32_t, id) /* stable, never reused */                                                                         \
     X(uint16_t, body)                                                                                                  \
+    X(uint16_t, anchor) /* fixed: 1 + the collider that it hangs on, of those that are told apart; else 0 */           \
     X(uint8_t, material)                                                                                               \
     X(uint8_t, level) /* mass 2^level of the finest */                                                                 \
     X(uint8_t, flags)

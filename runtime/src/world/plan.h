@@ -11,9 +11,10 @@ namespace thaw {
 // What the scene is like before a step: all that the plan depends on besides the work units.
 struct Needs {
     int particles = 0, movers = 0, exposed = 0;
-    bool listsStale = true; // something moved, changed hold, came or went since the lists were built
-    bool holdStale = false; // pieces may have lost what held them
-    bool sourceOn = false;  // an enabled source with power
+    bool listsStale = true;     // something moved, changed hold, came or went since the lists were built
+    bool holdStale = false;     // pieces may have lost what held them
+    bool collidersMove = false; // in this step
+    bool sourceOn = false;      // an enabled source with power
     bool timeScaleZero = false;
     bool unequal = true;         // temperatures differ within the melt
     bool awayFromAmbient = true; // something is warmer or colder than ambient

@@ -3,6 +3,7 @@
 #include "world/world.h"
 
 #include "base/kernel.h"
+#include "motion/carry.h"
 #include "neighbors/exposure.h"
 
 #include <chrono>
@@ -32,17 +33,17 @@ uint16_t makeTag(const void* self) {
     return static_cast<uint16_t>((h ^ (h >> 16) ^ (h >> 32)) | 1);
 }
 
+} // namespace
+
 Transform toTransform(thawVec3 p, thawQuat q, float scale) {
     float l = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
     return {{p.x, p.y, p.z}, {q.x / l, q.y / l, q.z / l, q.w / l}, scale};
 }
 
-} // namespace
-
 World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
-      motion_(allocator), heat_(allocator), hold_(allocator), surface_(allocator), volume_(allocator),
-      invDensity_(allocator), blockTotals_(allocator) {
+      motion_(allocator), heat_(allocator), hold_(allocator), anchors_(allocator), surface_(allocator),
+      volume_(allocator), invDensity_(allocator), blockTotals_(allocator) {
     particles.allocate(d.maxParticles);
     const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
     volume_.resize(n), invDensity_.resize(n);
@@ -54,6 +55,8 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     const Clock::time_point start = Clock::now();
     profile = {};
     uint32_t status = thawStep_ok;
+    if (anchorsFresh_) findAnchors();
+    if (toldApart_) startColliders(dt, 0, 1);
     const int wanted = subStepsWanted(dt);
     // What this frame runs: the host's work units, or the governor's choice within a budget of milliseconds.
     thawWork work = budget.work;
@@ -111,6 +114,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
                 auto t = timed(thawStage_neighbors);
                 refreshNeighbors();
             }
+            if (toldApart_) carryHeld(h, s, subSteps);
             const MotionFrame frame = motionFrame(h, subSteps, work);
             {
                 auto t = timed(thawStage_forces);
@@ -129,6 +133,10 @@ uint32_t World::step(float dt, const thawBudget& budget) {
                 auto t = timed(thawStage_collision);
                 motion_.move(frame);
             }
+            if (toldApart_) {
+                motion_.addImpulses(colliders.data(), static_cast<int>(colliders.size()));
+                arrive();
+            }
             const MotionStats& m = motion_.stats();
             motionStats.viscosityIterations += m.viscosityIterations;
             motionStats.iterationsClipped |= m.iterationsClipped, motionStats.velocityClamped |= m.velocityClamped;
@@ -139,6 +147,9 @@ uint32_t World::step(float dt, const thawBudget& budget) {
         listsStale_ = true;
         if (motionStats.iterationsClipped) status |= thawStep_iterationsClipped;
         if (motionStats.velocityClamped) status |= thawStep_velocityClamped;
+    } else if (toldApart_) {
+        carryHeld(dt, 0, 1);
+        arrive();
     }
     if (on(thawStage_phase)) {
         auto t = timed(thawStage_phase);
@@ -158,6 +169,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
             measure();
         }
     }
+    for (Collider& c : colliders) c.hasTarget = c.moves = false;
     if (neighbors_.clipped) status |= thawStep_neighborsClipped;
 
     ++steps_;
@@ -189,12 +201,75 @@ Needs World::needs() const {
     n.exposed = exposed_;
     n.listsStale = listsStale_;
     n.holdStale = holdStale_;
+    for (const Collider& c : colliders) n.collidersMove |= c.alive && c.hasTarget;
     for (const HeatSource& s : sources) n.sourceOn |= s.alive && s.enabled && s.power != 0;
     n.timeScaleZero = def.thermalTimeScale == 0;
     n.unequal = maxTemperature_ - minTemperature_ > kEqualTemperature;
     n.awayFromAmbient = maxTemperature_ - def.ambientTemperature > kEqualTemperature ||
                         def.ambientTemperature - minTemperature_ > kEqualTemperature;
     return n;
+}
+
+bool World::collidersMove() const {
+    for (const Collider& c : colliders)
+        if (c.alive && c.moves) return true;
+    return false;
+}
+
+// Sets the colliders going toward their targets, for one of the equal sub-steps of a step of dt.
+void World::startColliders(float dt, int subStep, int subSteps) {
+    for (Collider& c : colliders) {
+        if (subStep == 0) std::fill(std::begin(c.impulse), std::end(c.impulse), 0.0);
+        if (!c.alive || !c.hasTarget) continue;
+        const float share = 1 / static_cast<float>(subSteps - subStep);
+        c.moveTo(between(c.transform, c.target, share), dt / static_cast<float>(subSteps));
+    }
+}
+
+void World::carryHeld(float h, int subStep, int subSteps) {
+    startColliders(h * static_cast<float>(subSteps), subStep, subSteps);
+    heldSpeed_ = beginCarry(particles, colliders.data(), static_cast<int>(colliders.size()),
+                            {def.gravity.x, def.gravity.y, def.gravity.z}, h);
+}
+
+// The end of a sub-step: colliders and what hangs on them at their new places.
+void World::arrive() {
+    if (heldSpeed_ > 0) endCarry(particles, colliders.data(), static_cast<int>(colliders.size()));
+    for (Collider& c : colliders) {
+        if (!c.alive || !c.moves) continue;
+        // What was counted about the old place counts about the new one.
+        const double J[3] = {c.impulse[0], c.impulse[1], c.impulse[2]};
+        const Vec3 way = c.next.position - c.transform.position;
+        const double d[3] = {way.x, way.y, way.z};
+        for (int k = 0; k < 3; ++k)
+            c.impulse[3 + k] -= d[(k + 1) % 3] * J[(k + 2) % 3] - d[(k + 2) % 3] * J[(k + 1) % 3];
+        c.transform = c.next;
+        listsStale_ = true; // also where nothing else moves: what a wall covers is no surface
+        if (c.occluder) ++colliderVersion_;
+    }
+}
+
+void World::findAnchors() {
+    anchorsFresh_ = false;
+    if (listsStale_) refreshNeighbors(), listsStale_ = true; // the step's own stage finds the surface anew as well
+    anchors_.update({particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()), tasks}, true);
+}
+
+// Where a collider shall be at the end of the next step.
+void World::setColliderTarget(uint32_t index, const Transform& target) {
+    Collider& c = colliders[index];
+    if (!c.kinematic && !c.report) anchorsFresh_ = true;
+    c.kinematic = toldApart_ = true;
+    c.hasTarget = true, c.target = target;
+}
+
+// A jump: what hung on it stays behind, what it lands on is pushed out.
+void World::teleportCollider(uint32_t index, const Transform& to) {
+    Collider& c = colliders[index];
+    c.transform = to, c.hasTarget = false;
+    ++colliderVersion_;
+    listsStale_ = holdStale_ = true;
+    stepsSinceRelabel_ = kRelabelInterval;
 }
 
 bool World::heatDue(const thawWork& work) const { return steps_ % static_cast<uint64_t>(work.heatInterval) == 0; }
@@ -260,7 +335,8 @@ MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work) {
             {def.gravity.x, def.gravity.y, def.gravity.z},
             def.particleSpacing,
             work.pressureIterations,
-            work.viscosityIterations};
+            work.viscosityIterations,
+            heldSpeed_};
 }
 
 HeatFrame World::heatFrame(double dt, const thawWork& work) {
@@ -283,12 +359,17 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
 
 void World::holdAndRelease(float dt) {
     ++stepsSinceRelabel_;
+    const bool moved = toldApart_ && collidersMove();
+    if (moved) holdStale_ = true;
     const bool relabel = holdStale_ && stepsSinceRelabel_ >= kRelabelInterval;
     const HoldResult r = hold_.update({particles, neighbors_, materials.data(), colliders.data(),
-                                       static_cast<int>(colliders.size()), tasks, dt, relabel});
+                                       static_cast<int>(colliders.size()), tasks, dt, relabel, toldApart_});
     if (relabel) holdStale_ = false, stepsSinceRelabel_ = 0;
     if (r.released > 0) holdStale_ = true;
     if (r.changed()) listsStale_ = true;
+    if (!toldApart_) return;
+    const AnchorFrame frame{particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()), tasks};
+    if ((relabel || (moved && anchors_.pressed(frame))) && anchors_.update(frame, false) > 0) listsStale_ = true;
 }
 
 void World::measure() {
@@ -406,6 +487,7 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     }
     particles.pad();
     bodies[slot].take();
+    anchorsFresh_ = toldApart_;
     index1 = static_cast<uint32_t>(slot) + 1;
     holdStale_ = true;
     stepsSinceRelabel_ = kRelabelInterval;
@@ -464,9 +546,10 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
     c.transform = toTransform(d.position, d.rotation, 1);
     c.size = {d.size.x, d.size.y, d.size.z};
     c.adhesive = d.adhesive, c.occluder = d.occluder, c.alive = true;
+    c.slipLength = d.slipLength, c.friction = d.friction, c.report = d.reportImpulse;
     if (d.type == thawCollider_mesh) {
         auto mesh = std::make_shared<CleanMesh>();
-        const thawResult r = cleanMesh(d.mesh, toTransform(d.position, d.rotation, d.scale), *mesh, message);
+        const thawResult r = cleanMesh(d.mesh, {{}, {}, d.scale}, *mesh, message);
         report = mesh->report;
         if (r != thawResult_ok) return r;
         // Melt feels a wall within four spacings; beyond that a lower bound of the distance is enough.
@@ -478,6 +561,7 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
     colliders[slot] = std::move(c);
     colliderSlots[slot].take();
     index1 = static_cast<uint32_t>(slot) + 1;
+    if (d.reportImpulse) toldApart_ = anchorsFresh_ = true;
     ++colliderVersion_;
     listsStale_ = holdStale_ = true;
     stepsSinceRelabel_ = kRelabelInterval;
@@ -486,6 +570,9 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
 
 void World::removeCollider(uint32_t index) {
     colliders[index] = Collider{};
+    // What hung on it hangs on nothing now, and on nobody who comes to its place.
+    for (int i = 0; i < particles.count; ++i)
+        if (particles.anchor[static_cast<size_t>(i)] == index + 1) particles.anchor[static_cast<size_t>(i)] = 0;
     colliderSlots[index].alive = false;
     ++colliderVersion_;
     listsStale_ = holdStale_ = true;
@@ -536,6 +623,15 @@ uint64_t World::stateHash() const {
         bytes(v, sizeof v);
     }
     bytes(&stepsSinceRelabel_, sizeof stepsSinceRelabel_);
+    for (const Collider& c : colliders) {
+        if (!c.alive || !toldApart(c)) continue;
+        const Transform& t = c.hasTarget ? c.target : c.transform;
+        for (const Transform* x : {&c.transform, &t}) {
+            const float v[7] = {x->position.x, x->position.y, x->position.z, x->rotation.x,
+                                x->rotation.y, x->rotation.z, x->rotation.w};
+            bytes(v, sizeof v);
+        }
+    }
     return h;
 }
 

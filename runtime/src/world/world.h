@@ -6,6 +6,7 @@
 #include "geometry/colliders.h"
 #include "geometry/mesh_fill.h"
 #include "heat/heat.h"
+#include "motion/anchors.h"
 #include "motion/hold.h"
 #include "motion/motion.h"
 #include "neighbors/neighbors.h"
@@ -18,6 +19,9 @@
 #include <vector>
 
 namespace thaw {
+
+// rotation of any length but 0.
+Transform toTransform(thawVec3 position, thawQuat rotation, float scale);
 
 struct Slot {
     uint16_t generation = 0; // counts who lived here; never 0 for a valid id
@@ -46,6 +50,8 @@ public:
     thawBodyState bodyState(uint32_t index) const;
     thawResult addCollider(const thawColliderDef& def, thawMeshReport& report, std::string& message, uint32_t& index1);
     void removeCollider(uint32_t index);
+    void setColliderTarget(uint32_t index, const Transform& target);
+    void teleportCollider(uint32_t index, const Transform& to);
     void extractSurface(const thawSurfaceDef& def, thawSurfaceView& out);
     uint64_t stateHash() const;
     thawLedger ledger() const;
@@ -82,6 +88,11 @@ private:
     MotionFrame motionFrame(float dt, int subSteps, const thawWork& work);
     HeatFrame heatFrame(double dt, const thawWork& work);
     void holdAndRelease(float dt);
+    bool collidersMove() const;
+    void startColliders(float dt, int subStep, int subSteps);
+    void arrive();
+    void carryHeld(float dt, int subStep, int subSteps);
+    void findAnchors();
     void measure();
     void removeParticles(bool (*remove)(const Particles&, int, uint32_t), uint32_t argument);
 
@@ -89,13 +100,17 @@ private:
     Motion motion_;
     Heat heat_;
     Hold hold_;
+    Anchors anchors_;
     Surface surface_;
     Governor governor_;
     Array<float> volume_, invDensity_;
     Array<Totals> blockTotals_;
 
     bool listsStale_ = true;
-    bool holdStale_ = false; // some fixed particle went: pieces may have lost their hold
+    bool toldApart_ = false;    // some collider is: particles know what they hang on
+    bool anchorsFresh_ = false; // some came to be since the anchors were found
+    float heldSpeed_ = 0;       // m/s, of the fastest held particle in this sub-step
+    bool holdStale_ = false;    // some fixed particle went: pieces may have lost their hold
     uint32_t stepsSinceRelabel_ = 0;
     uint64_t colliderVersion_ = 1;
     uint32_t nextId_ = 1;

@@ -22,7 +22,7 @@ struct Suite {
 };
 
 std::vector<Suite> suites() {
-    return {{"motion", "liquids, solids and colliders at one step per frame", {liquidCases()}}};
+    return {{"motion", "liquids, solids and colliders at one step per frame", {liquidCases(), colliderCases()}}};
 }
 
 struct Options {

@@ -41,5 +41,6 @@ struct ValidationCase {
 // One list per file; validate.cpp puts them together.
 using CaseList = std::vector<ValidationCase>;
 CaseList liquidCases();
+CaseList colliderCases();
 
 } // namespace thaw::player
