@@ -85,7 +85,7 @@ bool outside(const Box& b, Vec3 p, float margin) {
 
 Motion::Motion(Allocator& a)
     : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), contactOf_(a), contactSlope_(a),
-      wallVelocity_(a), wallPush_(a), heldVelocity_(a), kick_(a), reportSlot_(a), reports_(a), held_(a),
+      wallVelocity_(a), wallPush_(a), heldVelocity_(a), kick_(a), heldKick_(a), reportSlot_(a), reports_(a), held_(a),
       wallGradient_(a), trait_(a), point_(a), coefficient_(a), wallDrag_(a), diagonal_(a), before_(a), residual_(a),
       direction_(a), image_(a), target_(a), piece_(a), queue_(a), sums_(a) {}
 
@@ -117,7 +117,7 @@ void Motion::begin(const MotionFrame& f) {
     }
     reporting_ = reporters > 0;
     reports_.assign(sums_.size() * static_cast<size_t>(reporters), {});
-    if (reporting_) kick_.assign(movers * kContacts, {});
+    if (reporting_) kick_.assign(movers * kContacts, {}), heldKick_.assign(movers, {});
     if (reporting_ || wallsMove_ || slippery_)
         contactOf_.resizeRaw(movers * kContacts), contactSlope_.resizeRaw(movers * kContacts);
     if (wallsMove_) wallVelocity_.resizeRaw(movers * kContacts), wallPush_.resizeRaw(movers);
@@ -266,24 +266,12 @@ void Motion::holdAtWalls(size_t i, Vec4& velocity, float h, float dt) {
         const float need = std::min(0.0f, (kHeldStandoff * spacing - held.w) / dt);
         float into = dot(held.xyz(), v);
         if (heldMoves_) into -= dot(held.xyz(), heldVelocity_[i].xyz());
-        if (into < need) v += (need - into) * held.xyz();
+        if (into < need) {
+            v += (need - into) * held.xyz();
+            if (reporting_) heldKick_[i].setXyz(heldKick_[i].xyz() + (need - into) * held.xyz());
+        }
     }
     velocity.setXyz(v);
-}
-
-void Motion::addImpulses(Collider* colliders, int colliderCount) const {
-    size_t reporters = 0;
-    for (int c = 0; c < colliderCount; ++c) reporters += reportSlot_[static_cast<size_t>(c)] >= 0;
-    for (int c = 0; c < colliderCount; ++c) {
-        const int32_t slot = reportSlot_[static_cast<size_t>(c)];
-        if (slot < 0) continue;
-        for (size_t b = static_cast<size_t>(slot); b < reports_.size(); b += reporters)
-            for (int k = 0; k < 3; ++k) {
-                // The blocks hold what the movers felt.
-                colliders[c].impulse[k] -= reports_[b].linear[k];
-                colliders[c].impulse[3 + k] -= reports_[b].angular[k];
-            }
-    }
 }
 
 int Motion::subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spacing, int limit,

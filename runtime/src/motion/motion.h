@@ -72,6 +72,10 @@ private:
     bool touches(size_t i) const { return contactCount_[i] || held_[i].w < INFINITY; }
     void holdAtWalls(size_t i, Vec4& velocity, float h, float dt);
     void meetMovingWalls(const MotionFrame& f);
+    template <class F> void forHeldPairs(const MotionFrame& f, F&& change);
+    void reportHeldDrag(const MotionFrame& f);
+    void reportHeldPush(const MotionFrame& f);
+    void reportHeldKicks(const MotionFrame& f);
     void kick(size_t contact, Vec3 change) {
         if (reporting_) kick_[contact].setXyz(kick_[contact].xyz() + change);
     }
@@ -103,6 +107,7 @@ private:
     Array<Vec4> wallPush_;           // per mover: no-slip block times wall velocity, kg m/s; when walls move
     Array<Vec4> heldVelocity_;       // per mover: of the fixed particles around it, m/s; when they move
     Array<Vec4> kick_;               // per contact: what the wall did to the velocity, m/s; when some collider reports
+    Array<Vec4> heldKick_;           // per mover: what clamps at held particles did, m/s; the same
     Array<int32_t> reportSlot_;      // per collider: its number among those that report, -1: none
     Array<ImpulseSums> reports_;     // per block and reporting collider
     Array<Vec4> held_;         // per mover: the surface of the fixed particles around it, like a contact; w inf: none

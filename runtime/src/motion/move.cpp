@@ -98,7 +98,7 @@ struct Obstacles {
 // Moves x by v for `time`, sliding along walls and fixed particles that are in the way or come along; v loses what
 // went into them and takes up what they push.
 void sweep(const Obstacles& around, const Tally& tally, float spacing, float mass, bool thin, float time, Vec3& x,
-           Vec3& v) {
+           Vec3& v, Vec4* heldKick) {
     const float wallStandoff = kWallStandoff * spacing, standoff = kFixedStandoff * spacing;
     const float radius = kFixedReach * spacing, least = (thin ? kThinStep : kSweepStep) * spacing, whole = time;
     const float wallSpeed = around.walls.motion() / whole;
@@ -128,10 +128,13 @@ void sweep(const Obstacles& around, const Tally& tally, float spacing, float mas
                 const Vec3 out = normalizeOr(here.out + there.out, {});
                 const float into = dot(out, v - there.velocity);
                 if (into < 0) v -= into * out;
+                if (into < 0 && heldKick) heldKick->setXyz(heldKick->xyz() - into * out);
                 // A corner or a hollow: it stays.
                 if (++blocked == kBlockedMost || !(into < -1e-3f * closing)) {
                     const Vec3 away = normalizeOr(there.out, {});
-                    v -= std::min(0.0f, dot(away, v - there.velocity)) * away;
+                    const Vec3 stop = -std::min(0.0f, dot(away, v - there.velocity)) * away;
+                    v += stop;
+                    if (heldKick) heldKick->setXyz(heldKick->xyz() + stop);
                     if (around.heldSpeed > 0) x += time * there.velocity; // where what it lies in goes
                     return;
                 }
@@ -193,7 +196,7 @@ void Motion::move(const MotionFrame& f) {
                 x += way;
             } else {
                 sweep(Obstacles{walls, f.neighbors, p, held, f.heldSpeed}, tally, spacing, p.velocity[i].w, thin, f.dt,
-                      x, v);
+                      x, v, reporting_ ? &heldKick_[i] : nullptr);
                 p.velocity[i].setXyz(v);
             }
             target_[i] = {x.x, x.y, x.z, p.position[i].w};
@@ -236,6 +239,7 @@ void Motion::move(const MotionFrame& f) {
         }
         sums_[static_cast<size_t>(block)] = sums;
     });
+    reportHeldKicks(f);
     float fastest = 0;
     for (const BlockSums& s : sums_) fastest = std::max(fastest, s.c);
     stats_.maxSpeed = std::sqrt(fastest);

@@ -47,6 +47,7 @@ void Motion::pressure(const MotionFrame& f) {
         });
     }
     if (!reporting_) return;
+    reportHeldPush(f);
     // Warm start and iterations together have applied the pressure as it is now.
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
         for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {

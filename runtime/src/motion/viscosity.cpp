@@ -256,6 +256,7 @@ void Motion::viscosity(const MotionFrame& f) {
     const bool sound = std::isfinite(rr) && std::isfinite(rz);
 
     if (sound && stats_.viscosityIterations > 0) returnMomentum(f);
+    if (sound) reportHeldDrag(f);
     if (sound && reporting_)
         forMovers([&](int begin, int, int last, BlockSums&) {
             for (int r = 8 * begin; r < last; ++r) {

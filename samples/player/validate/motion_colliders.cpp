@@ -396,45 +396,24 @@ void sweptPlate(Findings& found) {
     shop.balance(found, true);
 }
 
-// A thick bowl, open above: a half sphere turned about y, its rim rounded off by one flat ring.
-scene::TriMesh bowl(float inner, float outer) {
-    scene::TriMesh mesh;
-    constexpr int kAround = 48, kDown = 16;
-    const auto point = [&](float radius, int ring, int k) {
-        const double down = 0.5 * kPi * ring / kDown, a = 2 * kPi * k / kAround;
-        const double r = static_cast<double>(radius);
-        mesh.vertices.push_back(at(r * std::cos(down) * std::cos(a)));
-        mesh.vertices.push_back(at(-r * std::sin(down)));
-        mesh.vertices.push_back(at(r * std::cos(down) * std::sin(a)));
-    };
-    for (const float radius : {outer, inner})
-        for (int ring = 0; ring < kDown; ++ring)
-            for (int k = 0; k < kAround; ++k) point(radius, ring, k);
-    const auto index = [&](int shell, int ring, int k) {
-        return static_cast<uint32_t>((shell * kDown + ring) * kAround + k % kAround);
-    };
-    const auto quad = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
-        for (const uint32_t v : {a, b, c, a, c, d}) mesh.indices.push_back(v);
-    };
-    point(outer, kDown, 0), point(inner, kDown, 0);
-    const uint32_t lowest[2] = {2 * kDown * kAround, 2 * kDown * kAround + 1};
-    for (int k = 0; k < kAround; ++k) {
-        for (int ring = 0; ring + 1 < kDown; ++ring) {
-            quad(index(0, ring, k), index(0, ring, k + 1), index(0, ring + 1, k + 1), index(0, ring + 1, k));
-            quad(index(1, ring, k), index(1, ring + 1, k), index(1, ring + 1, k + 1), index(1, ring, k + 1));
-        }
-        for (const uint32_t v : {index(0, kDown - 1, k), index(0, kDown - 1, k + 1), lowest[0]})
-            mesh.indices.push_back(v);
-        for (const uint32_t v : {index(1, kDown - 1, k + 1), index(1, kDown - 1, k), lowest[1]})
-            mesh.indices.push_back(v);
-        quad(index(0, 0, k), index(1, 0, k), index(1, 0, k + 1), index(0, 0, k + 1));
+// Half a hollow sphere, open above, its rim at y = 0.
+scene::TriMesh bowl(double inner, double outer) {
+    constexpr int kDown = 16;
+    std::vector<scene::ProfilePoint> profile;
+    for (int k = 0; k <= kDown; ++k) {
+        const double a = 0.5 * kPi * k / kDown;
+        profile.push_back({outer * std::sin(a), -outer * std::cos(a)});
     }
-    return mesh;
+    for (int k = kDown; k >= 0; --k) {
+        const double a = 0.5 * kPi * k / kDown;
+        profile.push_back({inner * std::sin(a), -inner * std::cos(a)});
+    }
+    return scene::makeLathe(profile, 48);
 }
 
 void shakenBowl(Findings& found) {
     Shop shop(0.004f, 6000);
-    const scene::TriMesh mesh = bowl(0.04f, 0.046f);
+    const scene::TriMesh mesh = bowl(0.04, 0.046);
     thawColliderDef d;
     thawInitColliderDef(&d, thawCollider_mesh);
     d.mesh = mesh.view();
