@@ -125,6 +125,8 @@ Pictures::Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, 
         const float start = std::isnan(body.temperature) ? scene.world.ambientTemperature : body.temperature;
         low = std::min(low, start);
         high = std::max({high, start, scene.materials[size_t(body.material)].def.liquidus + 25.0f});
+        for (const scene::Part& part : body.parts)
+            high = std::max(high, scene.materials[size_t(part.material)].def.liquidus + 25.0f);
     }
     s.view.temperatureLow = low;
     s.view.temperatureHigh = high;

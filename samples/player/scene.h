@@ -56,12 +56,21 @@ struct Material {
     thawMaterialDef def{}; // filled by thawInitMaterialDef, then changed
 };
 
+// What of a body is of another material.
+struct Part {
+    Shape shape;         // what lies inside of it; not a plane
+    Placement placement; // in the space of the body's shape
+    float depth = 0;     // m, > 0: what lies deeper beneath the body's surface instead; range 1e-6..1e4
+    int material = 0;    // index into Scene::materials
+};
+
 struct Body {
     std::string name;
     Shape shape; // not a plane
     Placement placement;
     int material = 0;        // index into Scene::materials
     float temperature = NAN; // K, range 100..10000; NaN: ambient
+    std::vector<Part> parts; // at most 64, later ones count where they overlap
 };
 
 struct Collider {
@@ -145,6 +154,7 @@ std::string shortest(float value);
 // Triangles of everything that has some; reads mesh files. Indices match the scene's vectors.
 struct SceneMeshes {
     std::vector<TriMesh> bodies, colliders, props; // empty for planes
+    std::vector<std::vector<TriMesh>> parts;       // of each body, in its space; empty for a depth
 };
 // Throws InputError that names the place in the scene.
 SceneMeshes loadMeshes(const Scene& scene);

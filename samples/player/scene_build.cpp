@@ -100,7 +100,21 @@ SceneMeshes loadMeshes(const Scene& scene) {
                 messageAt(scene, placeOf(list, index) + "/mesh", oneLine(shape.meshFile, 120) + ": " + e.what()));
         }
     };
-    for (size_t i = 0; i < scene.bodies.size(); ++i) out.bodies.push_back(load("bodies", i, scene.bodies[i].shape));
+    for (size_t i = 0; i < scene.bodies.size(); ++i) {
+        out.bodies.push_back(load("bodies", i, scene.bodies[i].shape));
+        std::vector<TriMesh>& parts = out.parts.emplace_back();
+        for (const Part& part : scene.bodies[i].parts) {
+            TriMesh& mesh = parts.emplace_back();
+            if (part.depth > 0) continue;
+            mesh = load("bodies", i, part.shape);
+            const Placement& p = part.placement;
+            for (size_t v = 0; v < mesh.vertices.size(); v += 3) {
+                float* x = &mesh.vertices[v];
+                const thawVec3 y = rotate(p.rotation, {p.scale * x[0], p.scale * x[1], p.scale * x[2]});
+                x[0] = p.position.x + y.x, x[1] = p.position.y + y.y, x[2] = p.position.z + y.z;
+            }
+        }
+    }
     for (size_t i = 0; i < scene.colliders.size(); ++i)
         out.colliders.push_back(load("colliders", i, scene.colliders[i].shape));
     for (size_t i = 0; i < scene.props.size(); ++i) out.props.push_back(load("props", i, scene.props[i].shape));
@@ -188,6 +202,15 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
         d.rotation = b.placement.rotation;
         d.scale = b.placement.scale;
         d.temperature = b.temperature;
+        std::vector<thawBodyPart> parts;
+        for (size_t k = 0; k < b.parts.size(); ++k) {
+            thawBodyPart& part = parts.emplace_back();
+            part = {};
+            part.material = out.materials[size_t(b.parts[k].material)];
+            part.depth = b.parts[k].depth;
+            if (part.depth <= 0) part.mesh = meshes.parts[i][k].view();
+        }
+        d.parts = parts.data(), d.partCount = int32_t(parts.size());
         thawBodyId id{};
         thawMeshReport report{};
         const thawResult result = thawCreateBody(raw, &d, &id, &report);

@@ -480,6 +480,18 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         readPlacement(r, body.placement);
         r.kelvin("temperature", body.temperature);
         body.material = readBodyMaterial(r, scene, body.name);
+        r.list("parts", 64, [&](const json& part, const std::string& where) {
+            Reader q(part, where, file);
+            Part out;
+            if (q.find("depth"))
+                q.real("depth", out.depth, 1e-6, 1e4, "m");
+            else
+                readShape(q, out.shape, false), readPlacement(q, out.placement);
+            q.need("material");
+            out.material = readBodyMaterial(q, scene, body.name + " part " + std::to_string(body.parts.size()));
+            q.done();
+            body.parts.push_back(std::move(out));
+        });
         r.done();
         scene.bodies.push_back(std::move(body));
     });

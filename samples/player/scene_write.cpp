@@ -182,6 +182,16 @@ std::string writeScene(const Scene& scene) {
                  addPlacement(o, body.placement);
                  o.add("material", quoted(scene.materials[size_t(body.material)].name));
                  if (!std::isnan(body.temperature)) o.add("temperature", shortest(body.temperature));
+                 if (!body.parts.empty())
+                     o.add("parts", list(body.parts, indent + 2, [&](const Part& part, int deeper) {
+                               ObjectText p(deeper);
+                               p.add("material", quoted(scene.materials[size_t(part.material)].name));
+                               if (part.depth > 0)
+                                   p.add("depth", shortest(part.depth));
+                               else
+                                   addShape(p, part.shape), addPlacement(p, part.placement);
+                               return p.end();
+                           }));
                  return o.end();
              }));
     root.add("colliders", list(scene.colliders, 2, [](const Collider& collider, int indent) {

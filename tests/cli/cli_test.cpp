@@ -149,7 +149,7 @@ TEST_CASE("wrong command lines are refused") {
     Folder folder;
     const std::string scene = folder.write("s.json", kSmallScene);
     checkRefused({}, "subcommand");
-    checkRefused({"fly"}, "unknown command 'fly' (known: run, capture, melt, info, bench, make-mesh)");
+    checkRefused({"fly"}, "unknown command 'fly' (known: run, capture, melt, info, bench, validate, make-mesh)");
     checkRefused({"run"}, "scene is required");
     checkRefused({"run", scene, "--sconds", "1"}, "--sconds");
     checkRefused({"run", scene, "--seconds", "soon"}, "--seconds");

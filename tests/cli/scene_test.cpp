@@ -52,6 +52,11 @@ Scene fullScene() {
         b.placement = {{0.1f, -0.2f, 1e-5f}, quatFromDegrees(10, 20, 30), 1.5f};
         b.material = int(type) % 5;
         if (type != ShapeType::box) b.temperature = 287.654f;
+        Part inner;
+        inner.shape = b.shape, inner.placement = b.placement, inner.material = 4;
+        Part deep;
+        deep.depth = 0.0123f, deep.material = 2;
+        if (type != ShapeType::cone) b.parts = {inner, deep};
         s.bodies.push_back(b);
         Collider c;
         c.name = "wall";
@@ -60,6 +65,7 @@ Scene fullScene() {
         c.adhesive = type == ShapeType::box;
         c.occluder = type == ShapeType::cone;
         c.visible = type == ShapeType::torus;
+        c.slipLength = 0.0031f, c.friction = 1.25f;
         c.color = {0.7f, 0.0f, 1.0f};
         s.colliders.push_back(c);
         Prop p;
@@ -121,6 +127,17 @@ TEST_CASE("every field of a scene survives writing and reading") {
         CHECK(a.bodies[i].material == b.bodies[i].material);
         CHECK(std::isnan(a.bodies[i].temperature) == std::isnan(b.bodies[i].temperature));
         if (!std::isnan(a.bodies[i].temperature)) CHECK(a.bodies[i].temperature == b.bodies[i].temperature);
+        REQUIRE(a.bodies[i].parts.size() == b.bodies[i].parts.size());
+        for (size_t k = 0; k < a.bodies[i].parts.size(); ++k) {
+            const Part &p = a.bodies[i].parts[k], &q = b.bodies[i].parts[k];
+            CHECK(p.material == q.material);
+            CHECK(p.depth == q.depth);
+            if (p.depth > 0) continue;
+            sameShape(p.shape, q.shape);
+            CHECK(std::memcmp(&p.placement, &q.placement, sizeof(Placement)) == 0);
+        }
+        CHECK(a.colliders[i].slipLength == b.colliders[i].slipLength);
+        CHECK(a.colliders[i].friction == b.colliders[i].friction);
         sameShape(a.colliders[i].shape, b.colliders[i].shape);
         CHECK(std::memcmp(&a.colliders[i].placement, &b.colliders[i].placement, sizeof(Placement)) == 0);
         CHECK(a.colliders[i].adhesive == b.colliders[i].adhesive);

@@ -227,16 +227,25 @@ typedef struct thawMeshReport {
 
 /* ---- bodies ----------------------------------------------------------------------------------------------------- */
 
+/* A part of a body that is of another material: a shell around a core, a wick. */
+typedef struct thawBodyPart {
+    thawMaterialId material;
+    thawMesh mesh; /* closed, in the space of the body's mesh; what lies inside of it. All zero: use depth */
+    float depth;   /* m, what lies deeper beneath the body's surface; range 1e-6..1e4 without a mesh, 0 with one */
+} thawBodyPart;
+
 typedef struct thawBodyDef {
     uint32_t structSize, cookie;
     thawMaterialId material;
-    thawMesh mesh;            /* closed, or nearly so; filled with particles */
-    thawVec3 position;        /* m, default 0 */
-    thawQuat rotation;        /* default none */
-    float scale;              /* 1, range 1e-6..1e6, default 1 */
-    float temperature;        /* K at the start, range 0..1e5; default: the world's ambient (NaN stands for it) */
-    thawVec3 velocity;        /* m/s at the start, of what is liquid or free; each |.| <= 1000, default 0 */
-    thawVec3 angularVelocity; /* rad/s about the centre of mass, right-handed; each |.| <= 1000, default 0 */
+    thawMesh mesh;             /* closed, or nearly so; filled with particles */
+    thawVec3 position;         /* m, default 0 */
+    thawQuat rotation;         /* default none */
+    float scale;               /* 1, range 1e-6..1e6, default 1 */
+    float temperature;         /* K at the start, range 0..1e5; default: the world's ambient (NaN stands for it) */
+    thawVec3 velocity;         /* m/s at the start, of what is liquid or free; each |.| <= 1000, default 0 */
+    thawVec3 angularVelocity;  /* rad/s about the centre of mass, right-handed; each |.| <= 1000, default 0 */
+    const thawBodyPart* parts; /* partCount of them; where parts overlap the later one counts; default NULL */
+    int32_t partCount;         /* range 0..64, default 0 */
 } thawBodyDef;
 
 THAW_API void thawInitBodyDef(thawBodyDef* def);

@@ -187,6 +187,23 @@ void checkBudget(Check& c, const thawBudget& b) {
     checkWork(c, b.work);
 }
 
+void checkParts(const World& w, Check& c, const thawBodyDef& def) {
+    c.range("partCount", def.partCount, 0, 64);
+    if (def.partCount > 0 && !def.parts) c.fail(thawResult_invalidArgument, "parts: is NULL");
+    for (int32_t k = 0; c.ok() && k < def.partCount; ++k) {
+        const thawBodyPart& part = def.parts[k];
+        const std::string name = "parts[" + std::to_string(k) + "]";
+        if (part.material.index1 == 0 || part.material.world != w.tag || part.material.index1 > w.materials.size())
+            c.fail(thawResult_staleId, "%s.material: is not a material of this world", name.c_str());
+        if (part.mesh.vertices || part.mesh.indices || part.mesh.vertexCount || part.mesh.triangleCount) {
+            c.range((name + ".depth").c_str(), part.depth, 0, 0);
+            c.mesh((name + ".mesh").c_str(), part.mesh);
+        } else {
+            c.range((name + ".depth").c_str(), part.depth, 1e-6, 1e4);
+        }
+    }
+}
+
 void checkPlace(const World& w, Check& c, thawColliderId id, thawVec3 position, thawQuat rotation) {
     if (!alive(w, id, w.colliderSlots)) c.fail(thawResult_staleId, "collider: is not alive in this world");
     c.finite("position", position, 1e5);
@@ -396,6 +413,7 @@ thawResult thawCreateBody(thawWorld* world, const thawBodyDef* def, thawBodyId* 
         c.finite("velocity", def->velocity, 1000);
         c.finite("angularVelocity", def->angularVelocity, 1000);
         if (c.ok()) c.mesh("mesh", def->mesh);
+        if (c.ok()) checkParts(w, c, *def);
         if (!c.ok()) return;
         std::string message;
         uint32_t index1 = 0;

@@ -22,7 +22,9 @@ struct Suite {
 };
 
 std::vector<Suite> suites() {
-    return {{"motion", "liquids, solids and colliders at one step per frame", {liquidCases(), colliderCases()}}};
+    return {{"motion",
+             "liquids, solids and colliders at one step per frame",
+             {liquidCases(), colliderCases(), materialCases()}}};
 }
 
 struct Options {

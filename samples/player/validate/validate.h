@@ -42,5 +42,6 @@ struct ValidationCase {
 using CaseList = std::vector<ValidationCase>;
 CaseList liquidCases();
 CaseList colliderCases();
+CaseList materialCases();
 
 } // namespace thaw::player
