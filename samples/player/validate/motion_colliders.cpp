@@ -202,6 +202,8 @@ void pushedPlate(Findings& found) {
     found.atMost("went through the plate", 0, seen.crossed);
     found.atMost("inside of it, particles x frames", 0, seen.inside);
     found.atLeast("impulse against the way, N s", 1e-3, force);
+    shop.step(60);
+    found.atMost("mean compression a second later", 0.01, static_cast<double>(shop.lab.counters().meanCompression));
     shop.balance(found, true);
 }
 
@@ -387,6 +389,24 @@ void turntable(Findings& found) {
     shop.balance(found, true);
 }
 
+void conveyor(Findings& found) {
+    // A floor that goes along its own plane takes the liquid with it, by drag alone.
+    Shop shop(0.004f, 6000);
+    const thawVec3 half{0.2f, 0.004f, 0.05f};
+    Place belt{{0, -0.004f, 0}, {0, 0, 0, 1}};
+    const thawColliderId id = shop.box(half, belt);
+    shop.lab.box(shop.lab.material(Lab::plain(1000, 5)), {-0.02f, 0, -0.02f}, {0.02f, 0.012f, 0.02f}, Lab::kLiquid);
+    shop.step(30);
+    shop.step(30, [&](int) {
+        belt.position.x += at(0.1 * kStep);
+        shop.move(id, belt);
+    });
+    // In the mean: it spreads at the same time.
+    const Momentum m = momentumOf(shop.lab.particles());
+    found.within("speed of the liquid along, m/s", 0.1, m.p[0] / (0.04 * 0.012 * 0.04 * 1000), 0.02);
+    shop.balance(found);
+}
+
 void sweptPlate(Findings& found) {
     // In free space: a plate thinner than a particle, five spacings a frame, at a ball of liquid.
     Shop shop(0.004f, 6000, {0, 0, 0});
@@ -533,6 +553,7 @@ CaseList colliderCases() {
         {"collider-ball", "a ball goes down into 1 Pa s at 0.6 m/s and stops", sphereThroughMelt},
         {"collider-piston", "a piston comes down on a heap of 20 Pa s and stops at its volume", slowPiston},
         {"collider-turntable", "a table turns with a solid piece on it", turntable},
+        {"collider-belt", "a belt carries 5 Pa s along", conveyor},
         {"collider-swept-plate", "a plate of a quarter spacing hits a free blob at five spacings a frame", sweptPlate},
         {"collider-bowl", "a bowl (mesh) with 0.5 Pa s inside is shaken and tilted", shakenBowl},
         {"collider-wall", "a wall closes on a solid piece that stands on the floor", closingWall},
