@@ -4,6 +4,7 @@
 
 #include "base/kernel.h"
 #include "geometry/colliders.h"
+#include "motion/hold.h"
 #include "motion/motion.h"
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
@@ -64,7 +65,7 @@ struct MotionScene {
         const float mass = materials[static_cast<size_t>(material)].def.density * spacing * spacing * spacing;
         p.position[i] = {x.x, x.y, x.z, thaw::kSupport * spacing};
         p.velocity[i] = {v.x, v.y, v.z, mass};
-        p.velocityChange[i] = {0, 0, 0, 1};
+        p.velocityChange[i] = {};
         p.liquidFraction[i] = phi;
         p.material[i] = static_cast<uint8_t>(material);
         p.flags[i] = fixed ? thaw::kFixed : 0;
@@ -112,12 +113,13 @@ struct MotionScene {
     }
     // What the phase stage does for a large region that has just turned liquid: it starts stiff and softens, with the
     // pressure of its depth below `top`.
-    void startAtRest(float top, float stiffness = 1e3f) {
+    void startAtRest(float top) {
         for (int i = 0; i < particles.count; ++i) {
             const size_t k = static_cast<size_t>(i);
-            particles.velocityChange[k].w = stiffness;
-            particles.pressure[k] = materials[particles.material[k]].def.density * length(gravity) *
-                                    std::max(0.0f, top - particles.position[k].y);
+            const thaw::Material& m = materials[particles.material[k]];
+            particles.pressure[k] = m.def.density * length(gravity) * std::max(0.0f, top - particles.position[k].y);
+            particles.velocityChange[k].w = thaw::stiffStart(m.viscosity(particles.liquidFraction[k]), m.def.density,
+                                                             spacing, particles.pressure[k]);
         }
     }
 
@@ -152,9 +154,7 @@ struct MotionScene {
     }
     void step(int forced = 0) {
         if (!started) weigh(), started = true;
-        const int k = forced ? forced
-                             : thaw::Motion::subStepsWanted(particles, kStep, gravity, spacing, subStepLimit,
-                                                            colliders.data(), static_cast<int>(colliders.size()));
+        const int k = forced ? forced : thaw::Motion::subStepsWanted(particles, kStep, gravity, spacing, subStepLimit);
         for (int s = 0; s < k; ++s) {
             weigh();
             const thaw::MotionFrame f = frame(kStep / static_cast<float>(k), k);

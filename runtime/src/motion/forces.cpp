@@ -23,6 +23,7 @@ void Motion::forces(const MotionFrame& f) {
         for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
             const float spacing = p.position[i].w / kSupport, pull = f.materials[p.material[i]].def.adhesion * kGravity;
+            target_[i] = p.velocity[i];
             Vec3 v = p.velocity[i].xyz() + f.dt * f.gravity + image_[i].xyz() -
                      (f.dt * f.invDensity[i] * trait_[i].w) * wallGradient_[i].xyz();
             for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c) {

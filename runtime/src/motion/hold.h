@@ -10,15 +10,22 @@
 #include "particles/material.h"
 #include "particles/particles.h"
 
+#include <algorithm>
+
 namespace thaw {
 
-// What turns liquid starts with this many times its viscosity, which fades by a fifth a step: freed at once, it falls a
-// spacing in its first frame and into itself. A stick of butter that melts fast threw 60 drops in its first seconds
-// without, none with 100; with 1000 the solve does not keep up, and the candle throws some.
-inline constexpr float kStiffStart = 100;
-// A body that is liquid from the start is all free at once: 19 % mean compression at the worst with this, 90 % with
-// 100.
-inline constexpr float kStiffBody = 1000;
+// What turns liquid starts stiff and softens by a tenth a step: freed at once, it falls a spacing in its first frame
+// and into itself. Two parts, in Pa s:
+//  - so many times its own: a stick of butter that melts fast threw 60 drops in its first seconds without, none with
+//    100. Only up to kStiffestStart rho dx^2 per step of 1/60 s in all, which stands by itself.
+//  - up to kStiffTime s times the pressure of its depth, so that under its own weight nothing strains by more than
+//  about
+//    2 % a step.
+inline constexpr float kStiffStart = 100, kStiffestStart = 300, kStiffTime = 0.28f;
+inline float stiffStart(float viscosity, float density, float spacing, float pressure) {
+    const float most = kStiffestStart * 60 * density * spacing * spacing;
+    return std::max(0.0f, std::min(kStiffStart * viscosity, most) + kStiffTime * pressure - viscosity);
+}
 
 struct HoldFrame {
     Particles& particles;
@@ -28,6 +35,7 @@ struct HoldFrame {
     int colliderCount;
     Tasks& tasks;
     float dt;               // s, of the step
+    Vec3 gravity;           // m/s^2
     bool relabel;           // look for pieces that lost their hold
     bool toldApart = false; // some collider is told apart (carry.h): what sets has to know on what
 };
@@ -55,6 +63,8 @@ private:
     bool touchesToldApart(const HoldFrame& f, int row, const WallFinder& walls);
     HoldResult decide(const HoldFrame& f, int begin, int end);
     void reach(const HoldFrame& f);
+    void letGo(const HoldFrame& f, size_t row) const;
+    void pressurize(const HoldFrame& f);
     void gather(const HoldFrame& f, int begin, int end, WallFinder& walls) const;
 
     Array<uint8_t> state_;

@@ -86,8 +86,8 @@ bool outside(const Box& b, Vec3 p, float margin) {
 Motion::Motion(Allocator& a)
     : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), contactOf_(a), contactSlope_(a),
       wallVelocity_(a), wallPush_(a), heldVelocity_(a), kick_(a), heldKick_(a), reportSlot_(a), reports_(a), held_(a),
-      wallGradient_(a), trait_(a), point_(a), coefficient_(a), wallDrag_(a), diagonal_(a), before_(a), residual_(a),
-      direction_(a), image_(a), target_(a), piece_(a), queue_(a), sums_(a) {}
+      landing_(a), landingOn_(a), wallGradient_(a), trait_(a), point_(a), coefficient_(a), wallDrag_(a), diagonal_(a),
+      before_(a), residual_(a), direction_(a), image_(a), target_(a), piece_(a), queue_(a), pieceEnd_(a), sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
@@ -98,6 +98,7 @@ void Motion::begin(const MotionFrame& f) {
     const size_t movers = static_cast<size_t>(8 * f.neighbors.moverGroups);
     contact_.resizeRaw(movers * kContacts), contactAdhesive_.resizeRaw(movers * kContacts);
     contactCount_.resizeRaw(movers), held_.resizeRaw(movers), piece_.resizeRaw(movers), queue_.resizeRaw(movers),
+        pieceEnd_.resizeRaw(movers), landing_.resizeRaw(movers), landingOn_.resizeRaw(movers),
         wallGradient_.resizeRaw(movers), wallDrag_.resizeRaw(2 * movers);
     diagonal_.resizeRaw(movers), before_.resizeRaw(movers), residual_.resizeRaw(movers), image_.resizeRaw(movers);
     trait_.resizeRaw(rows), point_.resizeRaw(rows), direction_.resizeRaw(rows), target_.resizeRaw(rows);
@@ -150,7 +151,8 @@ void Motion::begin(const MotionFrame& f) {
         for (int r = 8 * begin; r < last; ++r) {
             const Vec4 x = p.position[static_cast<size_t>(r)];
             around.grow(x.xyz());
-            reach = std::max(reach, std::max(1.0f, kAdhesionReach / kSupport) * x.w);
+            const float way = f.dt * length(p.velocity[static_cast<size_t>(r)].xyz());
+            reach = std::max({reach, std::max(1.0f, kAdhesionReach / kSupport) * x.w, x.w + way});
         }
         WallFinder walls;
         walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, reach);
@@ -181,6 +183,21 @@ void Motion::begin(const MotionFrame& f) {
             const size_t i = static_cast<size_t>(r);
             const Vec3 x = p.position[i].xyz();
             const float h = p.position[i].w, spacing = h / kSupport, density = 1 / f.invDensity[i];
+
+            landing_[i].w = INFINITY;
+            // Without the gravity of this step, which what rests on the wall has too.
+            const Vec3 way = f.dt * p.velocity[i].xyz();
+            const float fast = kLandingFrom * spacing / static_cast<float>(f.subSteps);
+            if (dot(way, way) > fast * fast && !walls.empty())
+                walls.forNear(x, length(way) + spacing, [&](float distance, Vec3 normal, const Collider& c) {
+                    if (c.moves) return; // asks for sub-steps
+                    const float into = -dot(normal, way);
+                    if (!(into > fast && distance - into < 0.5f * spacing)) return;
+                    if (landing_[i].w == INFINITY) sums.b += 1;
+                    if (!(distance < landing_[i].w)) return;
+                    landing_[i] = {normal.x, normal.y, normal.z, distance};
+                    landingOn_[i] = static_cast<uint16_t>(&c - f.colliders);
+                });
 
             Contact found[kContacts];
             const float far = std::max(1.0f, kAdhesionReach / kSupport) * h;
@@ -222,7 +239,7 @@ void Motion::begin(const MotionFrame& f) {
                 material = p.material[i], phi = p.liquidFraction[i];
                 viscosity = f.materials[material].viscosity(phi);
             }
-            const float wanted = viscosity * std::max(1.0f, p.velocityChange[i].w);
+            const float wanted = viscosity + p.velocityChange[i].w;
             const float floor = apparentFloor(density, spacing, stepTime, length(p.velocity[i].xyz()));
             if (wanted < floor) sums.d = std::max(sums.d, floor);
             trait_[i] = {std::max(wanted, floor) / shear + fold * pressure,
@@ -237,13 +254,14 @@ void Motion::begin(const MotionFrame& f) {
         sums_[static_cast<size_t>(block)] = sums;
     });
 
-    double total = 0;
+    double total = 0, landing = 0;
     for (const BlockSums& s : sums_) {
-        total += s.a;
+        total += s.a, landing += s.b;
         stats_.maxCompression = std::max(stats_.maxCompression, s.c);
         stats_.apparentViscosity = std::max(stats_.apparentViscosity, s.d);
     }
     stats_.meanCompression = static_cast<float>(total / p.moverCount);
+    if (landing > 0) land(f);
 }
 
 void Motion::holdAtWalls(size_t i, Vec4& velocity, float h, float dt) {
@@ -298,21 +316,20 @@ int Motion::subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spa
         while (k < kMost && g > kDepthPerStep * static_cast<float>(k * k)) ++k;
         ++depth[k];
 
-        // What will have reached a wall by the end of the step, and how far it goes toward it: sliding along one asks
-        // for nothing.
+        // What comes to moving walls and to fixed particles in the step. Walls that stand are no matter of sub-steps:
+        // see Motion::land.
         const bool slow = !(dot(way, way) > kApproachPerStep * kApproachPerStep * d * d);
         if (slow && !wallsMove) continue;
         float toward = 0;
-        for (int c = 0; c < colliderCount; ++c) {
-            if (!colliders[c].alive || (slow && !colliders[c].moves)) continue;
-            const Vec3 relative = colliders[c].moves ? way - colliders[c].displacement(x) : way;
+        for (int c = 0; wallsMove && c < colliderCount; ++c) {
+            if (!colliders[c].alive || !colliders[c].moves) continue;
+            const Vec3 relative = way - colliders[c].displacement(x);
             if (slow && !(dot(relative, relative) > kApproachPerStep * kApproachPerStep * d * d)) continue;
             Vec3 normal;
             const float distance = colliders[c].distance(x, normal), into = -dot(normal, relative);
             if (distance - into < d) toward = std::max(toward, into);
         }
-        const Vec3 to = x + way;
-        if (!slow && outside(held, x, d) && !outside(held, to, d)) toward = std::max(toward, length(way));
+        if (!slow && outside(held, x, d) && !outside(held, x + way, d)) toward = std::max(toward, length(way));
         int a = 1;
         while (a < kApproachMost && toward > kApproachPerStep * d * static_cast<float>(a)) ++a;
         ++approach[a];

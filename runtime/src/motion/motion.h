@@ -60,9 +60,8 @@ public:
     // Adds to each reporting collider what the last sub-step's movers did to it.
     void addImpulses(Collider* colliders, int colliderCount) const;
 
-    // How many sub-steps depth (G = g H dt^2 / dx^2) and approach speed ask for in a step of dt, at most `limit`.
-    // Without colliders, only what approaches fixed particles counts as approach. Colliders that move do so by their
-    // motion of the whole step.
+    // How many sub-steps depth (G = g H dt^2 / dx^2) and what comes to fixed particles or to walls that move ask for in
+    // a step of dt, at most `limit`. Colliders that move do so by their motion of the whole step.
     static int subStepsWanted(const Particles& particles, float dt, Vec3 gravity, float spacing, int limit,
                               const Collider* colliders = nullptr, int colliderCount = 0);
 
@@ -70,6 +69,7 @@ public:
 
 private:
     bool touches(size_t i) const { return contactCount_[i] || held_[i].w < INFINITY; }
+    void land(const MotionFrame& f);
     void holdAtWalls(size_t i, Vec4& velocity, float h, float dt);
     void meetMovingWalls(const MotionFrame& f);
     template <class F> void forHeldPairs(const MotionFrame& f, F&& change);
@@ -80,7 +80,10 @@ private:
         if (reporting_) kick_[contact].setXyz(kick_[contact].xyz() + change);
     }
     void returnMomentum(const MotionFrame& f);
-    void moveRigidly(const MotionFrame& f, const uint32_t* rows, size_t size, bool leans);
+    void returnSpin(const MotionFrame& f);
+    void addRigidMotion(const MotionFrame& f, const uint32_t* rows, size_t count, const double (&linear)[3],
+                        const double (&angular)[3]);
+    void moveRigidly(const MotionFrame& f, const uint32_t* rows, size_t size);
     void applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end);
 
     struct WallShear {
@@ -110,8 +113,11 @@ private:
     Array<Vec4> heldKick_;           // per mover: what clamps at held particles did, m/s; the same
     Array<int32_t> reportSlot_;      // per collider: its number among those that report, -1: none
     Array<ImpulseSums> reports_;     // per block and reporting collider
-    Array<Vec4> held_;         // per mover: the surface of the fixed particles around it, like a contact; w inf: none
-    Array<Vec4> wallGradient_; // per mover: xyz gradient of the wall's volume fraction in 1/m, w C = density error
+    Array<Vec4> held_;    // per mover: the surface of the fixed particles around it, like a contact; w inf: none
+    Array<Vec4> landing_; // per mover: the wall that it would run into in this sub-step, like a contact; w inf: none, w
+                          // < 0: its piece is landing
+    Array<uint16_t> landingOn_; // per mover: the collider of that wall
+    Array<Vec4> wallGradient_;  // per mover: xyz gradient of the wall's volume fraction in 1/m, w C = density error
     Array<Vec4>
         trait_; // per row: x viscosity in Pa s (< 0: fixed), y cohesion in m/s^2, z mass in kg, w pressure in Pa
     Array<Vec4> point_;        // per row: xyz position, w pressure change of this iteration in Pa
@@ -119,11 +125,16 @@ private:
     Array<Vec4> wallDrag_;     // two per mover: xx yy zz, xy xz yz of the no-slip block, kg
     Array<Vec4> diagonal_;     // per mover: 1 / diagonal of the viscous matrix, 1/kg
     Array<Vec4> before_, residual_, direction_, image_;
-    Array<Vec4> target_; // per row: position at the end of the sub-step before particles are moved apart
-    // Whether a mover's piece hangs on a wall or on something held: kLeaning when it does itself, the rest is searched.
-    enum Piece : uint8_t { kUnknown, kLeaning, kAfloat };
-    Array<Piece> piece_;    // per mover
-    Array<uint32_t> queue_; // rows of the piece in hand
+    // Per row: first the velocity at the start of the sub-step, then the position at its end before particles are moved
+    // apart.
+    Array<Vec4> target_;
+    // Whether a mover's piece hangs on a wall or on something held: kLeaning when it does itself, the rest is
+    // searched; kTouching instead where whole pieces are wanted.
+    enum Piece : uint8_t { kUnknown, kLeaning, kAfloat, kTouching };
+    Array<Piece> piece_;       // per mover
+    Array<uint32_t> queue_;    // rows of the floating pieces of this sub-step, one after another
+    Array<uint32_t> pieceEnd_; // per floating piece, its end in the above
+    size_t floatingPieces_ = 0;
     Array<BlockSums> sums_;
 };
 

@@ -240,6 +240,7 @@ void Motion::move(const MotionFrame& f) {
         sums_[static_cast<size_t>(block)] = sums;
     });
     reportHeldKicks(f);
+    returnSpin(f);
     float fastest = 0;
     for (const BlockSums& s : sums_) fastest = std::max(fastest, s.c);
     stats_.maxSpeed = std::sqrt(fastest);

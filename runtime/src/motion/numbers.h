@@ -29,6 +29,9 @@ inline constexpr float kThinWall = 0.5f;
 // Sub-steps: k = sqrt(G / kDepthPerStep), and so many spacings of travel in each.
 inline constexpr float kDepthPerStep = 15, kApproachPerStep = 1;
 
+// What would run into a wall farther than this many spacings in a step lands: see Motion::land.
+inline constexpr float kLandingFrom = 0.3f;
+
 // Share of the density error taken back in a step. Feedback adds the velocity error / dt, so it falls with dt.
 inline float densityFeedback(int subSteps) { return subSteps <= 2 ? 0.3f : subSteps == 3 ? 0.2f : 0.1f; }
 inline float jacobiWeight(int subSteps) { return subSteps <= 3 ? 0.4f : 0.25f; }

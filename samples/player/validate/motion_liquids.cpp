@@ -3,8 +3,77 @@
 #include "validate/lab.h"
 #include "validate/validate.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace thaw::player {
 namespace {
+
+constexpr float kMillimetre = 1e-3f;
+
+// A tank of 8 x 8 spacings filled 0.3 m high, at rest; what is read after the first two seconds.
+void column(Findings& found, float viscosity, float seconds, double meanLimit, double maxLimit, bool height) {
+    Lab lab(4 * kMillimetre, 6000);
+    const float side = 8 * lab.spacing();
+    lab.tank({0, 0, 0}, {side, 1, side});
+    lab.box(lab.material(Lab::plain(1000, viscosity)), {0, 0, 0}, {side, 0.3f, side}, Lab::kLiquid);
+    double mean = 0, most = 0, low = INFINITY, high = -INFINITY;
+    lab.step(static_cast<int>(60 * seconds), [&](int frame) {
+        const thawCounters c = lab.counters();
+        if (frame <= 120) return;
+        mean = std::max(mean, static_cast<double>(c.meanCompression));
+        most = std::max(most, static_cast<double>(c.maxCompression));
+        low = std::min(low, lab.height()), high = std::max(high, lab.height());
+    });
+    found.atMost("density error, mean", meanLimit, mean);
+    found.atMost("density error, largest", maxLimit, most);
+    if (!height) return;
+    found.within("height, lowest, m", 0.3, low, 0.01);
+    found.within("height, highest, m", 0.3, high, 0.01);
+}
+
+void waterColumn(Findings& found) { column(found, 1e-3f, 20, 0.01, 0.03, true); }
+void honeyColumn(Findings& found) { column(found, 10, 20, 0.01, 0.03, true); }
+void thinColumn(Findings& found) { column(found, 0.1f, 20, 0.01, 0.05, false); }
+void stiffColumn(Findings& found) { column(found, 1e6f, 5, 0.01, 0.03, true); }
+
+// Radius within which 99 % of the particles lie, plus half a spacing.
+double spread(const Lab& lab) {
+    const thawParticleView p = lab.particles();
+    std::vector<double> r;
+    double x = 0, z = 0;
+    for (int i = 0; i < p.count; ++i)
+        x += static_cast<double>(p.positions[4 * i]), z += static_cast<double>(p.positions[4 * i + 2]);
+    for (int i = 0; i < p.count; ++i)
+        r.push_back(std::hypot(static_cast<double>(p.positions[4 * i]) - x / p.count,
+                               static_cast<double>(p.positions[4 * i + 2]) - z / p.count));
+    const size_t n = r.size() * 99 / 100;
+    std::nth_element(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(n), r.end());
+    return r[n] + 0.5 * static_cast<double>(lab.spacing());
+}
+
+// Huppert (1982): a constant volume on a floor without slip, inertia and surface tension nothing.
+void puddle(Findings& found) {
+    constexpr double kViscosity = 100, kDensity = 1000, kGravity = 9.81, kRadius = 0.03, kHeight = 0.02;
+    Lab lab(2 * kMillimetre, 12000);
+    lab.floor();
+    scene::TriMesh mesh = scene::makeCylinder(static_cast<float>(kRadius), static_cast<float>(kHeight));
+    lab.body(lab.material(Lab::plain(static_cast<float>(kDensity), static_cast<float>(kViscosity))), mesh,
+             {0, 0.5f * static_cast<float>(kHeight), 0}, Lab::kLiquid);
+    const thawParticleView p = lab.particles();
+    double mass = 0;
+    for (int i = 0; i < p.count; ++i) mass += static_cast<double>(p.velocities[4 * i + 3]);
+    const double V = mass / kDensity, nu = kViscosity / kDensity;
+    const auto theory = [&](double t) {
+        return 0.894 * std::pow(kGravity * V * V * V / (3 * nu), 0.125) * std::pow(t, 0.125);
+    };
+    lab.step(600, [&](int frame) {
+        for (const int at : {60, 120, 300, 600})
+            if (frame == at)
+                found.within("radius after " + std::to_string(at / 60) + " s, m", theory(frame / 60.0), spread(lab),
+                             0.1);
+    });
+}
 
 void spinningBlob(Findings& found) {
     Lab lab(0.004f, 4000, {0, 0, 0});
@@ -26,7 +95,12 @@ void spinningBlob(Findings& found) {
 } // namespace
 
 CaseList liquidCases() {
-    return {{"spinning-blob", "sphere of 1 Pa s, r 20 mm at 4 mm, drifts and spins freely for 10 s", spinningBlob}};
+    return {{"column-water", "0.3 m of 1 mPa s at 4 mm, 20 s at rest", waterColumn},
+            {"column-honey", "0.3 m of 10 Pa s at 4 mm, 20 s at rest", honeyColumn},
+            {"column-thin", "0.3 m of 0.1 Pa s at 4 mm, 20 s at rest", thinColumn},
+            {"column-stiff", "0.3 m of 1e6 Pa s at 4 mm, 5 s at rest", stiffColumn},
+            {"puddle", "constant volume of 100 Pa s on a floor, 1 to 10 s (Huppert 1982)", puddle},
+            {"spinning-blob", "sphere of 1 Pa s, r 20 mm at 4 mm, drifts and spins freely for 10 s", spinningBlob}};
 }
 
 } // namespace thaw::player

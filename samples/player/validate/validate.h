@@ -43,5 +43,6 @@ using CaseList = std::vector<ValidationCase>;
 CaseList liquidCases();
 CaseList colliderCases();
 CaseList materialCases();
+CaseList impactCases();
 
 } // namespace thaw::player
