@@ -463,7 +463,8 @@ typedef struct thawCounters {
     float maxSpeed;          /* m/s */
     float maxCompression;    /* 1, largest density error of moving particles */
     float meanCompression;   /* 1 */
-    float apparentViscosity; /* Pa s, largest viscosity floor that the time step imposed on moving liquid; 0 if none */
+    float apparentViscosity; /* Pa s, largest that a moving particle was solved with above its own: floor of fast liquid,
+                              * share of its pressure times the step, stiff start or landing; 0 if none */
     float meltedFraction;    /* 1, of all mass */
     float minTemperature, maxTemperature; /* K */
     uint64_t steps;

@@ -241,9 +241,10 @@ void Motion::begin(const MotionFrame& f) {
             }
             const float wanted = viscosity + p.velocityChange[i].w;
             const float floor = apparentFloor(density, spacing, stepTime, length(p.velocity[i].xyz()));
-            if (wanted < floor) sums.d = std::max(sums.d, floor);
-            trait_[i] = {std::max(wanted, floor) / shear + fold * pressure,
-                         f.materials[material].def.cohesion * (0.1f * kGravity), p.velocity[i].w, pressure};
+            const float solved = std::max(wanted, floor) + shear * fold * pressure;
+            if (solved > viscosity) sums.d = std::max(sums.d, solved);
+            trait_[i] = {solved / shear, f.materials[material].def.cohesion * (0.1f * kGravity), p.velocity[i].w,
+                         pressure};
             point_[i] = {x.x, x.y, x.z, 0};
         }
         // Rows of the last group that do not move have no part in anything.
