@@ -121,7 +121,7 @@ std::string Report::table() const {
     out += formatted("  mass error     %.2e\n", ledger_.massError);
     out += formatted("  energy error   %.2e  (absorbed %.4g J, emitted %.4g J, convected %.4g J)\n",
                      ledger_.energyError, ledger_.absorbed, ledger_.emitted, ledger_.convected);
-    out += formatted("  compression    %.2f %% mean, %.2f %% most; fastest %.2f m/s; viscosity floor %.3g Pa s\n",
+    out += formatted("  compression    %.2f %% mean, %.2f %% most; fastest %.2f m/s; solved with up to %.3g Pa s\n",
                      100.0 * double(c.meanCompression), 100.0 * double(c.maxCompression), double(c.maxSpeed),
                      double(c.apparentViscosity));
     out += "  work a step    ";
