@@ -105,8 +105,9 @@ void addBench(CLI::App& app, int& exitCode) {
     CLI::Option* budgets =
         command->add_option("--budgets", o->budgets, "Budgets in ms, with commas between (default: the scene's)");
     command
-        ->add_option("--work", o->work,
-                     "Fixed work instead: sub-steps,pressure,viscosity iterations; hashes must then agree")
+        ->add_option(
+            "--work", o->work,
+            "Fixed work instead: sub-steps,pressure,viscosity iterations[,least sub-steps]; hashes must then agree")
         ->excludes(budgets);
     command->add_option("--threads", o->threads, "Thread counts, with commas between")->capture_default_str();
     command->add_option("--seconds", o->seconds, "Time of the game, s (default: what the scene says)");

@@ -68,7 +68,7 @@ void addCapture(CLI::App& app, int& exitCode) {
     command->add_option("--size", o->size, "Pixels of a picture")->capture_default_str();
     command->add_option("--view", o->view, "shaded, temperature or phase")->capture_default_str();
     command->add_option("--out", o->out, "Folder for the pictures; made when it is not there")->required();
-    command->add_option("--work", o->work, "Work of a step: sub-steps,pressure,viscosity iterations")
+    command->add_option("--work", o->work, "Work of a step: sub-steps,pressure,viscosity iterations[,least sub-steps]")
         ->capture_default_str();
     command->add_option("--threads", o->threads, "Threads that take part, 1 to 64; changes no picture")
         ->capture_default_str();

@@ -44,7 +44,9 @@ void RunOptions::addTo(CLI::App& command) {
     command.add_option("--seconds", seconds, "Time of the game to run, s (default: what the scene says)");
     CLI::Option* ms =
         command.add_option("--budget-ms", budgetMs, "Time a step may take, ms (default: what the scene says)");
-    command.add_option("--work", work, "Fixed work instead: sub-steps,pressure,viscosity iterations, such as 4,4,12")
+    command
+        .add_option("--work", work,
+                    "Fixed work instead: sub-steps,pressure,viscosity iterations[,least sub-steps], such as 4,4,12")
         ->excludes(ms);
     command.add_option("--threads", threads, "Threads that take part, 1 to 64")->capture_default_str();
     command.add_option("--out", out,
@@ -66,7 +68,7 @@ thawBudget makeBudget(const scene::Scene& scene, double budgetMs, const std::str
     thawInitBudget(&budget);
     budget.milliseconds = scene.defaults.budgetMilliseconds;
     if (!work.empty()) {
-        const std::vector<double> w = parseNumbers("--work", work, 1, 200, "", 3, 3);
+        const std::vector<double> w = parseNumbers("--work", work, 1, 200, "", 3, 4);
         checkRange("--work sub-steps", w[0], 1, 16);
         checkRange("--work pressure", w[1], 1, 64);
         for (double v : w)
@@ -75,6 +77,10 @@ thawBudget makeBudget(const scene::Scene& scene, double budgetMs, const std::str
         budget.work.subSteps = int32_t(w[0]);
         budget.work.pressureIterations = int32_t(w[1]);
         budget.work.viscosityIterations = int32_t(w[2]);
+        if (w.size() > 3) {
+            checkRange("--work least sub-steps", w[3], 1, 16);
+            budget.work.leastSubSteps = int32_t(w[3]);
+        }
         return budget;
     }
     budget.mode = thawBudget_milliseconds;

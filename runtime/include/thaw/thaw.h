@@ -370,6 +370,7 @@ typedef struct thawWork {
     int32_t viscosityIterations; /* cap of the conjugate gradients; range 1..200 */
     int32_t heatInterval;        /* heat every n-th step, energy-exact; range 1..8 */
     float rayRefresh;            /* share of visibility rays cast anew in a step; range 0.05..1 */
+    int32_t leastSubSteps;       /* at least this many, for accuracy; range 1..16, default 1; subSteps goes before it */
 } thawWork;
 
 typedef enum thawBudgetMode {
@@ -463,8 +464,8 @@ typedef struct thawCounters {
     float maxSpeed;          /* m/s */
     float maxCompression;    /* 1, largest density error of moving particles */
     float meanCompression;   /* 1 */
-    float apparentViscosity; /* Pa s, largest that a moving particle was solved with above its own: floor of fast liquid,
-                              * share of its pressure times the step, stiff start or landing; 0 if none */
+    float apparentViscosity; /* Pa s, largest that a moving particle was solved with above its own: floor of fast
+                              * liquid, share of its pressure times the step, stiff start or landing; 0 if none */
     float meltedFraction;    /* 1, of all mass */
     float minTemperature, maxTemperature; /* K */
     uint64_t steps;

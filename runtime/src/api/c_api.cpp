@@ -171,6 +171,7 @@ void checkSource(Check& c, const thawHeatSourceDef* d) {
 
 void checkWork(Check& c, const thawWork& w) {
     c.range("work.subSteps", w.subSteps, 1, 16);
+    c.range("work.leastSubSteps", w.leastSubSteps, 1, 16);
     c.range("work.pressureIterations", w.pressureIterations, 1, 64);
     c.range("work.viscosityIterations", w.viscosityIterations, 1, 200);
     c.range("work.heatInterval", w.heatInterval, 1, 8);
@@ -215,7 +216,7 @@ thawBudget defaultBudget() {
     b.structSize = sizeof b, b.cookie = thaw::kDefCookie;
     b.mode = thawBudget_work;
     b.milliseconds = 4;
-    b.work = {4, 4, 12, 1, 1.0f};
+    b.work = {4, 4, 12, 1, 1.0f, 1};
     return b;
 }
 

@@ -64,9 +64,12 @@ constexpr int kClimbAfter = 30;     // good frames
 constexpr float kRayShare = 0.25f;
 
 thawWork clip(const Quality& q, const thawWork& limit) {
-    return {std::min(q.subSteps, limit.subSteps), std::min(q.pressure, limit.pressureIterations),
-            std::min(q.viscosity, limit.viscosityIterations), std::max(q.heatInterval, limit.heatInterval),
-            std::min(q.rays, limit.rayRefresh)};
+    return {std::min(q.subSteps, limit.subSteps),
+            std::min(q.pressure, limit.pressureIterations),
+            std::min(q.viscosity, limit.viscosityIterations),
+            std::max(q.heatInterval, limit.heatInterval),
+            std::min(q.rays, limit.rayRefresh),
+            limit.leastSubSteps};
 }
 
 } // namespace

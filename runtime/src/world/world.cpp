@@ -58,7 +58,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     uint32_t status = thawStep_ok;
     if (anchorsFresh_) findAnchors();
     if (toldApart_) startColliders(dt, 0, 1);
-    const int wanted = subStepsWanted(dt);
+    const int wanted = std::max(subStepsWanted(dt), static_cast<int>(budget.work.leastSubSteps));
     // What this frame runs: the host's work units, or the governor's choice within a budget of milliseconds.
     thawWork work = budget.work;
     float predicted = 0;
@@ -287,7 +287,7 @@ thawPlan World::previewPlan(const thawBudget& budget) const {
     float predicted = 0;
     if (budget.mode == thawBudget_milliseconds) {
         Governor governor = governor_; // choosing moves its memory; a preview must not
-        const int wanted = subStepsWanted(1.0f / 60);
+        const int wanted = std::max(subStepsWanted(1.0f / 60), static_cast<int>(budget.work.leastSubSteps));
         work = governor.choose(n, budget.milliseconds, budget.work, wanted, predicted);
     }
     n.heatDue = heatDue(work);

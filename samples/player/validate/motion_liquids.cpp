@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace thaw::player {
 namespace {
@@ -92,6 +93,47 @@ void spinningBlob(Findings& found) {
     found.atMost("angular momentum, change / whole", 1e-2, lengthOf(l) / lengthOf(before.l));
 }
 
+// Places of all particles, by id, after `seconds` of a cylinder that slumps on a floor.
+std::vector<double> slump(const thawWork& work, double seconds) {
+    Lab lab(4 * kMillimetre, 2000);
+    lab.budget.work = work;
+    lab.floor();
+    lab.body(lab.material(Lab::plain(1000, 20)), scene::makeCylinder(0.02f, 0.04f), {0, 0.02f, 0}, Lab::kLiquid);
+    lab.step(static_cast<int>(std::lround(60 * seconds)));
+    const thawParticleView p = lab.particles();
+    std::vector<size_t> order(static_cast<size_t>(p.count));
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return p.ids[a] < p.ids[b]; });
+    std::vector<double> at;
+    for (const size_t i : order)
+        for (size_t k = 0; k < 3; ++k) at.push_back(static_cast<double>(p.positions[4 * i + k]));
+    return at;
+}
+
+// More sub-steps and more iterations come nearer to what very many of both give.
+void convergence(Findings& found) {
+    constexpr double kSeconds = 0.25;
+    const std::vector<double> reference = slump({16, 32, 200, 1, 1, 16}, kSeconds);
+    const auto error = [&](const thawWork& work) {
+        const std::vector<double> x = slump(work, kSeconds);
+        double sum = 0;
+        for (size_t k = 0; k < x.size(); ++k) sum += (x[k] - reference[k]) * (x[k] - reference[k]);
+        return std::sqrt(3 * sum / static_cast<double>(x.size())) / static_cast<double>(4 * kMillimetre);
+    };
+    double last = 1;
+    for (const int steps : {1, 2, 4}) {
+        const double now = error({steps, 8, 100, 1, 1, steps});
+        found.atMost(std::to_string(steps) + " sub-steps: off the reference, spacings", last, now);
+        last = now;
+    }
+    last = 1;
+    for (const int iterations : {3, 6, 24}) {
+        const double now = error({4, 8, iterations, 1, 1, 4});
+        found.atMost(std::to_string(iterations) + " viscosity iterations: the same", last, now);
+        last = now;
+    }
+}
+
 } // namespace
 
 CaseList liquidCases() {
@@ -100,7 +142,9 @@ CaseList liquidCases() {
             {"column-thin", "0.3 m of 0.1 Pa s at 4 mm, 20 s at rest", thinColumn},
             {"column-stiff", "0.3 m of 1e6 Pa s at 4 mm, 5 s at rest", stiffColumn},
             {"puddle", "constant volume of 100 Pa s on a floor, 1 to 10 s (Huppert 1982)", puddle},
-            {"spinning-blob", "sphere of 1 Pa s, r 20 mm at 4 mm, drifts and spins freely for 10 s", spinningBlob}};
+            {"spinning-blob", "sphere of 1 Pa s, r 20 mm at 4 mm, drifts and spins freely for 10 s", spinningBlob},
+            {"convergence", "a cylinder of 20 Pa s slumps for 0.25 s; reference: 16 sub-steps, 32 and 200 iterations",
+             convergence}};
 }
 
 } // namespace thaw::player
