@@ -396,6 +396,10 @@ Material readMaterial(const json& value, const std::string& place, const std::st
     r.real("adhesion", d.adhesion, 0.0, 5.0);
     r.real("setFraction", d.setFraction, 0.0, 1.0);
     r.real("releaseFraction", d.releaseFraction, 0.0, 1.0);
+    r.real("youngModulus", d.youngModulus, 0.0, 1e8);
+    r.real("solidYieldStress", d.solidYieldStress, 0.0, 1e8);
+    r.real("relaxationTime", d.relaxationTime, 0.0, 1e9);
+    r.real("breakStrain", d.breakStrain, 0.0, 1.0);
     if (d.setFraction > d.releaseFraction)
         r.bad(r.at("setFraction"), "must not be above releaseFraction (" + shortest(d.releaseFraction) + "), got " +
                                        shortest(d.setFraction));

@@ -120,6 +120,10 @@ std::string materialText(const Material& material, int indent) {
     real("adhesion", d.adhesion, base.adhesion);
     real("setFraction", d.setFraction, base.setFraction);
     real("releaseFraction", d.releaseFraction, base.releaseFraction);
+    real("youngModulus", d.youngModulus, base.youngModulus);
+    real("solidYieldStress", d.solidYieldStress, base.solidYieldStress);
+    real("relaxationTime", d.relaxationTime, base.relaxationTime);
+    real("breakStrain", d.breakStrain, base.breakStrain);
     if (!same(d.color, base.color)) o.add("color", vector(d.color));
     return o.end();
 }

@@ -43,6 +43,7 @@ Scene fullScene() {
     d.viscositySolid = 12345.6f;
     d.viscosityLiquid = 0.00177f, d.absorptivity = 0.31f, d.emissivity = 0.87f, d.cohesion = 3.3f, d.adhesion = 1.7f;
     d.setFraction = 0.11f, d.releaseFraction = 0.77f, d.color = {0.1f, 0.2f, 0.3f};
+    d.youngModulus = 12345, d.solidYieldStress = 123.4f, d.relaxationTime = 5.5f, d.breakStrain = 0.33f;
     const ShapeType types[] = {ShapeType::box,  ShapeType::sphere, ShapeType::cylinder,
                                ShapeType::cone, ShapeType::torus,  ShapeType::mesh};
     for (ShapeType type : types) {

@@ -84,6 +84,10 @@ TEST_CASE("api: a field of a material out of range is named with its value") {
         {"absorptivity", [](thawMaterialDef& d) { d.absorptivity = 1.5f; }},
         {"emissivity", [](thawMaterialDef& d) { d.emissivity = -0.1f; }},
         {"setFraction", [](thawMaterialDef& d) { d.setFraction = d.releaseFraction + 0.1f; }},
+        {"youngModulus", [](thawMaterialDef& d) { d.youngModulus = -1; }},
+        {"solidYieldStress", [](thawMaterialDef& d) { d.solidYieldStress = NAN; }},
+        {"relaxationTime", [](thawMaterialDef& d) { d.relaxationTime = -1; }},
+        {"breakStrain", [](thawMaterialDef& d) { d.breakStrain = 1.5f; }},
         {"color", [](thawMaterialDef& d) { d.color.z = NAN; }},
     };
     for (const Case& c : cases) {

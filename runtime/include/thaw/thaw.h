@@ -194,6 +194,12 @@ typedef struct thawMaterialDef {
     float setFraction;     /* liquid fraction below which liquid that touches a solid sets; range 0..releaseFraction */
     float releaseFraction; /* liquid fraction above which solid lets go; range setFraction..1 */
     thawVec3 color;        /* linear RGB 0..1, for whoever draws it */
+    /* Elastic solid; Poisson's ratio is 1/4 and viscositySolid damps it. */
+    float youngModulus; /* Pa at liquid fraction 0, falls to nothing at releaseFraction as (1 - phi/release)^2; range
+                           0..1e8; 0, the default: rigid. What stiffness a step can follow, see docs/step.md */
+    float solidYieldStress; /* Pa, von Mises stress above which the solid flows; range 0..1e8; 0, the default: never */
+    float relaxationTime; /* s, shear stress of the solid falls as e^(-t / this); range 0..1e9; 0, the default: never */
+    float breakStrain;    /* 1, elastic stretch at which the solid tears; range 0..1; 0, the default: never */
 } thawMaterialDef;
 
 /* Fills with a preset. An unknown preset fills with wax. Sources of the numbers: third_party_notes/data_sources.md. */
@@ -403,8 +409,9 @@ THAW_API uint32_t thawWorld_Step(thawWorld* world, float timeStep, const thawBud
 /* ---- results ---------------------------------------------------------------------------------------------------- */
 
 typedef enum thawParticleFlags {
-    thawParticle_fixed = 1 << 0,  /* solid and held: does not move */
-    thawParticle_surface = 1 << 1 /* exposed to air */
+    thawParticle_fixed = 1 << 0,   /* solid and held: does not move */
+    thawParticle_surface = 1 << 1, /* exposed to air */
+    thawParticle_asleep = 1 << 2   /* elastic and held as long as its load stays what it is */
 } thawParticleFlags;
 
 /* Structure of arrays, `count` long each. Order changes from step to step; ids are stable. */

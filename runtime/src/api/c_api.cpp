@@ -155,6 +155,10 @@ void checkMaterial(Check& c, const thawMaterialDef* d) {
     c.range("adhesion", d->adhesion, 0, 5);
     c.range("setFraction", d->setFraction, 0, 1);
     c.range("releaseFraction", d->releaseFraction, 0, 1);
+    c.range("youngModulus", d->youngModulus, 0, 1e8);
+    c.range("solidYieldStress", d->solidYieldStress, 0, 1e8);
+    c.range("relaxationTime", d->relaxationTime, 0, 1e9);
+    c.range("breakStrain", d->breakStrain, 0, 1);
     if (c.ok() && d->setFraction > d->releaseFraction)
         c.fail(thawResult_invalidArgument, "setFraction: must not be above releaseFraction %g, got %g",
                static_cast<double>(d->releaseFraction), static_cast<double>(d->setFraction));

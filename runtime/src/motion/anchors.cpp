@@ -138,7 +138,7 @@ int Anchors::update(const AnchorFrame& f, bool fresh) {
             p.anchor[i] = anchor;
             if (!pressed) continue;
             // With the velocity that it has.
-            p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~kFixed);
+            p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~(kFixed | kAsleep));
             p.anchor[i] = 0;
             p.velocityChange[i] = {0, 0, 0, 1};
             p.stiffness[i] = 0;

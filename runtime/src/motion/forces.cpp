@@ -20,6 +20,7 @@ void Motion::forces(const MotionFrame& f) {
     const Vec3 down = normalizeOr(f.gravity, {});
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
         pairForces(pass, begin, end);
+        if (bonded_) addSprings(f, begin, end);
         for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
             const float spacing = p.position[i].w / kSupport, pull = f.materials[p.material[i]].def.adhesion * kGravity;
@@ -34,6 +35,9 @@ void Motion::forces(const MotionFrame& f) {
                 v -= (pull * fade * f.dt) * k.xyz();
                 kick(c, -(pull * fade * f.dt) * k.xyz());
             }
+            // The viscous solve of what is bonded starts from the velocity of the last step: from where springs and
+            // gravity send it, it blows up within three frames (BAKEOFF 4).
+            if (bonded_ && p.bondSlot[i]) p.velocityChange[i].setXyz(p.velocity[i].xyz() - v);
             p.velocity[i].setXyz(v);
         }
     });

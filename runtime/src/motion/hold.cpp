@@ -4,6 +4,7 @@
 
 #include "base/kernel.h"
 #include "motion/carry.h"
+#include "motion/numbers.h"
 
 #include <algorithm>
 
@@ -20,8 +21,6 @@ constexpr float kRestTouch = 1.75f, kRestWallTouch = 1.5f;
 constexpr float kAnchor = 1.0f;
 // In spacings a step. Nothing sets in flight.
 constexpr float kSlow = 0.3f, kRest = 1e-3f;
-// Pressure that a setting particle carried goes away over some frames: taken at once, its neighbours fall for a frame.
-constexpr float kPressureFade = 0.81f;
 
 constexpr int kRowBlock = 256;
 
@@ -90,7 +89,7 @@ HoldResult Hold::decide(const HoldFrame& f, int begin, int end) {
             if (p.pressure[k] > 0) p.pressure[k] = p.pressure[k] > 1 ? p.pressure[k] * kPressureFade : 0;
             continue;
         }
-        if (phi >= m.def.setFraction) continue;
+        if (phi >= m.def.setFraction || p.bondSlot[k]) continue;
         const float spacing = p.position[k].w / kSupport;
         const float moved = length(p.velocity[k].xyz()) * f.dt;
         if (f.toldApart) {
@@ -103,7 +102,8 @@ HoldResult Hold::decide(const HoldFrame& f, int begin, int end) {
         const Vec3 x = p.position[k].xyz();
         if (!gathered) gather(f, begin, end, walls), gathered = true;
         bool touches = nearWall(walls, x, (rests ? kRestWallTouch : kWallTouch) * spacing);
-        if (!touches)
+        // What is elastic bonds with what it lies against (Bonds): only a wall holds it.
+        if (!touches && !m.soft())
             forNeighbors(f.neighbors, i, [&](uint32_t j) {
                 if (j >= static_cast<uint32_t>(p.count) || !(p.flags[j] & kFixed)) return true;
                 const float reach = (rests ? kRestTouch : kTouch) * 0.5f * (spacing + p.position[j].w / kSupport);
@@ -179,7 +179,7 @@ void Hold::reach(const HoldFrame& f) {
 
 void Hold::letGo(const HoldFrame& f, size_t i) const {
     Particles& p = f.particles;
-    p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~kFixed);
+    p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~(kFixed | kAsleep));
     p.anchor[i] = 0; // its velocity stays that of what it hung on
     p.velocityChange[i] = {};
     p.stiffness[i] = 0;

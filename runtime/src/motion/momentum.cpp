@@ -59,13 +59,13 @@ void Motion::addRigidMotion(const MotionFrame& f, const uint32_t* rows, size_t c
 // twelve setting particles, whose own stiffness keeps its drift out of reach of the iterations, took off at 15 m/s^2.
 // Measured from the velocities and not from the residual, whose recurrence rounds (2e-4 of a stiff blob's momentum in
 // a second), and also where the start was good enough to need no iteration.
-void Motion::returnMomentum(const MotionFrame& f) {
+void Motion::returnMomentum(const MotionFrame& f, bool every) {
     Particles& p = f.particles;
     const uint32_t movers = static_cast<uint32_t>(p.moverCount);
-    const bool every = wallsMove_ || reporting_ || heldMoves_;
     size_t start = 0;
     floatingPieces_ = 0;
-    for (uint32_t i = 0; every && i < movers; ++i) piece_[i] = piece_[i] == kLeaning ? kTouching : kUnknown;
+    for (uint32_t i = 0; every && i < movers; ++i)
+        piece_[i] = gripped(i) ? kLeaning : piece_[i] == kLeaning ? kTouching : kUnknown;
     // Most movers lean themselves, or a neighbour of theirs does: the search ends where it meets the first that leans.
     for (uint32_t seed = 0; seed < movers; ++seed) {
         if (piece_[seed] != kUnknown && piece_[seed] != kTouching) continue;

@@ -87,12 +87,15 @@ Motion::Motion(Allocator& a)
     : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), contactOf_(a), contactSlope_(a),
       wallVelocity_(a), wallPush_(a), heldVelocity_(a), kick_(a), heldKick_(a), reportSlot_(a), reports_(a), held_(a),
       landing_(a), landingOn_(a), wallGradient_(a), trait_(a), point_(a), coefficient_(a), wallDrag_(a), diagonal_(a),
-      before_(a), residual_(a), direction_(a), image_(a), target_(a), piece_(a), queue_(a), pieceEnd_(a), sums_(a) {}
+      before_(a), residual_(a), direction_(a), image_(a), grip_(a), target_(a), piece_(a), queue_(a), pieceEnd_(a),
+      sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
     Particles& p = f.particles;
+    bonded_ = f.bonds && f.bonds->any();
     if (p.moverCount == 0) return;
+    if (bonded_) f.bonds->lay(f.bondFrame());
 
     const size_t rows = static_cast<size_t>(p.count) + Particles::kPadding;
     const size_t movers = static_cast<size_t>(8 * f.neighbors.moverGroups);
@@ -127,14 +130,16 @@ void Motion::begin(const MotionFrame& f) {
 
     // Rows that do not move: what their neighbours read of them. A particle that has just set still carries some
     // pressure, which fades (taken away at once, its neighbours would fall freely for a frame).
+    if (bonded_) grip_.assign(movers, {});
     const int still = static_cast<int>(rows) - p.moverCount;
     f.tasks.forBlocks(still, 8 * kBlock, [&](int begin, int end, int, int) {
         for (int r = begin; r < end; ++r) {
             const size_t i = static_cast<size_t>(p.moverCount + r);
             const Vec3 x = p.position[i].xyz();
             const bool real = p.moverCount + r < p.count;
-            trait_[i] = {-1, real ? f.materials[p.material[i]].def.cohesion * (0.1f * kGravity) : 0.0f, p.velocity[i].w,
-                         p.pressure[i]};
+            const bool coheres = real && !p.bondSlot[i];
+            trait_[i] = {-1, coheres ? f.materials[p.material[i]].def.cohesion * (0.1f * kGravity) : 0.0f,
+                         p.velocity[i].w, p.pressure[i]};
             if (!heldMoves_) p.velocity[i].setXyz({});
             point_[i] = {x.x, x.y, x.z, 0};
             direction_[i] = {};
@@ -222,7 +227,7 @@ void Motion::begin(const MotionFrame& f) {
             }
             const float error = f.neighbors.volumeFraction[i] + solid - 1;
             wallGradient_[i] = {gradient.x, gradient.y, gradient.z, error};
-            sums.a += std::max(error, 0.0f), sums.c = std::max(sums.c, error);
+            if (!p.bondSlot[i]) sums.a += std::max(error, 0.0f), sums.c = std::max(sums.c, error);
 
             // dC/dP of this particle's own pressure. Between fixed neighbours it grows without bound and winds the
             // pressure up, which the next warm start turns into 20 m/s (BAKEOFF2 A1): so it is capped, and what was
@@ -232,7 +237,15 @@ void Motion::begin(const MotionFrame& f) {
             float stiffness = 1 / (dot(sum, sum) * f.invDensity[i] + f.volume[i] * own.w + 1e-30f);
             stiffness = std::min(stiffness, kStiffnessCap * bulk * density * spacing * spacing);
             float pressure = std::max(p.pressure[i], 0.0f);
-            if (p.stiffness[i] > 0 && error < kRescaleBelow) pressure *= std::min(1.0f, stiffness / p.stiffness[i]);
+            // Springs carry a solid, which has no pressure of its own; what it had when it set fades. (With one, the
+            // viscous solve never converges.) Other solids push it by springs too, not as a surface.
+            const bool elastic = p.bondSlot[i] != 0;
+            if (elastic) {
+                stiffness = 0, pressure = pressure > 1 ? pressure * kPressureFade : 0;
+                held_[i].w = INFINITY;
+            }
+            if (!elastic && p.stiffness[i] > 0 && error < kRescaleBelow)
+                pressure *= std::min(1.0f, stiffness / p.stiffness[i]);
             p.pressure[i] = pressure, p.stiffness[i] = stiffness;
 
             if (p.material[i] != material || p.liquidFraction[i] != phi) {
@@ -242,9 +255,9 @@ void Motion::begin(const MotionFrame& f) {
             const float wanted = viscosity + p.velocityChange[i].w;
             const float floor = apparentFloor(density, spacing, stepTime, length(p.velocity[i].xyz()));
             const float solved = std::max(wanted, floor) + shear * fold * pressure;
-            if (solved > viscosity) sums.d = std::max(sums.d, solved);
-            trait_[i] = {solved / shear, f.materials[material].def.cohesion * (0.1f * kGravity), p.velocity[i].w,
-                         pressure};
+            if (solved > viscosity && !elastic) sums.d = std::max(sums.d, solved);
+            trait_[i] = {solved / shear, elastic ? 0.0f : f.materials[material].def.cohesion * (0.1f * kGravity),
+                         p.velocity[i].w, pressure};
             point_[i] = {x.x, x.y, x.z, 0};
         }
         // Rows of the last group that do not move have no part in anything.

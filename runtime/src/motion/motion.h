@@ -6,6 +6,7 @@
 #include "base/tasks.h"
 #include "base/types.h"
 #include "geometry/colliders.h"
+#include "motion/bonds.h"
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
 #include "particles/particles.h"
@@ -26,7 +27,12 @@ struct MotionFrame {
     Vec3 gravity;
     float spacing; // m, of level 0
     int pressureIterations, viscosityIterations;
-    float heldSpeed = 0; // m/s, of the fastest fixed particle: what hangs on a collider moves with it
+    float heldSpeed = 0;    // m/s, of the fastest fixed particle: what hangs on a collider moves with it
+    Bonds* bonds = nullptr; // null, or without any: nothing is elastic
+
+    BondFrame bondFrame() const {
+        return {particles, neighbors, volume, materials, colliders, colliderCount, tasks, dt, gravity};
+    }
 };
 
 struct MotionStats {
@@ -79,12 +85,16 @@ private:
     void kick(size_t contact, Vec3 change) {
         if (reporting_) kick_[contact].setXyz(kick_[contact].xyz() + change);
     }
-    void returnMomentum(const MotionFrame& f);
+    void returnMomentum(const MotionFrame& f, bool every);
     void returnSpin(const MotionFrame& f);
     void addRigidMotion(const MotionFrame& f, const uint32_t* rows, size_t count, const double (&linear)[3],
                         const double (&angular)[3]);
     void moveRigidly(const MotionFrame& f, const uint32_t* rows, size_t size);
-    void applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end);
+    void applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end, bool walls);
+    void addSprings(const MotionFrame& f, int begin, int end);
+    bool regrip(const MotionFrame& f);
+    void reportGrip(const MotionFrame& f);
+    bool gripped(size_t i) const { return bonded_ && grip_[i].w > 0; }
 
     struct WallShear {
         float tangent, normal; // kg: tangent (v - n (n v)) + (tangent + normal) n (n v)
@@ -125,6 +135,10 @@ private:
     Array<Vec4> wallDrag_;     // two per mover: xx yy zz, xy xz yz of the no-slip block, kg
     Array<Vec4> diagonal_;     // per mover: 1 / diagonal of the viscous matrix, 1/kg
     Array<Vec4> before_, residual_, direction_, image_;
+    // Elastic solids: whether there are any; per mover, what a wall that it is pressed against makes of its velocity in
+    // the viscous solve, w 1, or w 0.
+    bool bonded_ = false;
+    Array<Vec4> grip_;
     // Per row: first the velocity at the start of the sub-step, then the position at its end before particles are moved
     // apart.
     Array<Vec4> target_;

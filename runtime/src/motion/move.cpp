@@ -157,6 +157,7 @@ void Motion::move(const MotionFrame& f) {
     Particles& p = f.particles;
     if (p.moverCount == 0) return;
 
+    const Box nothing; // springs keep solids apart
     Box held;
     for (int r = p.moverCount; r < p.count; ++r) held.grow(p.position[static_cast<size_t>(r)].xyz());
     const float limit = std::max(kSpeedLimit, kSpeedLimitSpacings * f.spacing / f.dt);
@@ -195,11 +196,11 @@ void Motion::move(const MotionFrame& f) {
             if (!(dot(way, way) > far * far)) {
                 x += way;
             } else {
-                sweep(Obstacles{walls, f.neighbors, p, held, f.heldSpeed}, tally, spacing, p.velocity[i].w, thin, f.dt,
-                      x, v, reporting_ ? &heldKick_[i] : nullptr);
+                sweep(Obstacles{walls, f.neighbors, p, p.bondSlot[i] ? nothing : held, f.heldSpeed}, tally, spacing,
+                      p.velocity[i].w, thin, f.dt, x, v, reporting_ ? &heldKick_[i] : nullptr);
                 p.velocity[i].setXyz(v);
             }
-            target_[i] = {x.x, x.y, x.z, p.position[i].w};
+            target_[i] = {x.x, x.y, x.z, p.bondSlot[i] ? -p.position[i].w : p.position[i].w};
         }
         sums_[static_cast<size_t>(block)] = sums;
     });
@@ -215,9 +216,9 @@ void Motion::move(const MotionFrame& f) {
         float reach = 0;
         for (int r = 8 * begin; r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
-            Vec3 apart = image_[i].xyz();
+            Vec3 apart = p.bondSlot[i] ? Vec3{} : image_[i].xyz();
             if (thinWalls_) {
-                const float most = kThinStep / kSupport * target_[i].w, l = length(apart);
+                const float most = kThinStep / kSupport * std::abs(target_[i].w), l = length(apart);
                 if (l > most) apart = (most / l) * apart;
             }
             p.position[i].setXyz(target_[i].xyz() + apart);
@@ -244,6 +245,7 @@ void Motion::move(const MotionFrame& f) {
     float fastest = 0;
     for (const BlockSums& s : sums_) fastest = std::max(fastest, s.c);
     stats_.maxSpeed = std::sqrt(fastest);
+    if (bonded_) f.bonds->relax(f.bondFrame());
 }
 
 } // namespace thaw

@@ -26,6 +26,10 @@ inline constexpr float kFloorCosine = 0.7f;
 // A wall whose half is thinner than this many spacings is one that a particle could be pushed out of on the wrong side.
 inline constexpr float kThinWall = 0.5f;
 
+// Of the pressure that a particle carried when it set is left after a step: taken at once, its neighbours fall for a
+// frame.
+inline constexpr float kPressureFade = 0.81f;
+
 // Sub-steps: k = sqrt(G / kDepthPerStep), and so many spacings of travel in each.
 inline constexpr float kDepthPerStep = 15, kApproachPerStep = 1;
 

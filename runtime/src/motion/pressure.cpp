@@ -42,7 +42,10 @@ void Motion::pressure(const MotionFrame& f) {
             pairPush({lists, point_.data(), wallGradient_.data(), f.invDensity, f.dt, p.velocity.data()}, begin, end);
             for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
                 const size_t i = static_cast<size_t>(r);
-                if (touches(i)) holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
+                if (gripped(i))
+                    p.velocity[i].setXyz(grip_[i].xyz());
+                else if (touches(i))
+                    holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
             }
         });
     }

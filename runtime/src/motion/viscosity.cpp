@@ -13,7 +13,11 @@ namespace thaw {
 namespace {
 
 constexpr float kTolerance = 1e-2f; // of the change that gravity makes in a step
-constexpr float kLeastGravity = 1;  // m/s^2, for that measure where there is none
+// With elastic solids: what is left over is a share of their weight that nothing carries.
+constexpr float kElasticTolerance = 3e-3f;
+// How often what is pressed against walls is found again with the velocities that come of it.
+constexpr int kGripRounds = 3;
+constexpr float kLeastGravity = 1; // m/s^2, for that measure where there is none
 // What turns liquid starts stiff and softens by this much a step: half of it gone after seven.
 // Of a block born liquid in a tank, 0.02 / 0.3 Pa s, 12 spacings deep, the worst mean compression is 5.6 / 5.4 % with
 // 0.8, 3.9 / 3.7 % with 0.9 (7.9 / 7.8 % with 0.6): pressure has to take over from viscosity while it fades.
@@ -33,8 +37,8 @@ Motion::WallShear Motion::wallShear(const MotionFrame& f, size_t i, size_t c) co
     return {weight * tangent, weight * (normal - tangent)};
 }
 
-// image = (M + walls + pairs) velocity, for the movers of the groups.
-void Motion::applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end) {
+// image = (M + drag + pairs) velocity, for the movers of the groups; `walls`: 0 for what they grip.
+void Motion::applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end, bool walls) {
     const Particles& p = f.particles;
     pairViscosity(
         {PairLists(f.neighbors), p.position.data(), trait_.data(), coefficient_.data(), velocity, image_.data()}, begin,
@@ -49,6 +53,9 @@ void Motion::applyViscosity(const MotionFrame& f, const Vec4* velocity, int begi
                                                 b.y * v.x + b.z * v.y + a.z * v.z});
     }
     for (int r = last; r < 8 * end; ++r) image_[static_cast<size_t>(r)] = {};
+    if (!bonded_ || !walls) return;
+    for (int r = 8 * begin; r < last; ++r)
+        if (grip_[static_cast<size_t>(r)].w > 0) image_[static_cast<size_t>(r)] = {};
 }
 
 void Motion::viscosity(const MotionFrame& f) {
@@ -102,72 +109,101 @@ void Motion::viscosity(const MotionFrame& f) {
             diagonal_[i] = residual_[i] = {};
         }
     });
-    const double allowed = static_cast<double>(kTolerance) * kTolerance * total(&BlockSums::a);
+    const double tolerance = static_cast<double>(bonded_ ? kElasticTolerance : kTolerance);
+    const double allowed = tolerance * tolerance * total(&BlockSums::a);
 
-    forMovers([&](int begin, int end, int last, BlockSums& sums) {
-        applyViscosity(f, p.velocity.data(), begin, end);
-        for (int r = 8 * begin; r < last; ++r) {
-            const size_t i = static_cast<size_t>(r);
-            Vec3 res = trait_[i].z * before_[i].xyz() - image_[i].xyz();
-            if (wallsMove_ && contactCount_[i]) res += wallPush_[i].xyz();
-            const Vec4 inverse = diagonal_[i];
-            const Vec3 z{res.x * inverse.x, res.y * inverse.y, res.z * inverse.z};
-            residual_[i] = {res.x, res.y, res.z, 0};
-            direction_[i] = {z.x, z.y, z.z, 0};
-            sums.a += static_cast<double>(dot(res, z)), sums.b += static_cast<double>(dot(res, res));
-        }
-    });
-    double rz = total(&BlockSums::a), rr = total(&BlockSums::b);
-
-    // Forces as in the last step are a good start, but velocities that the iterations do not reach go on accelerating
-    // with it: at 1e5 Pa s a free cylinder gained a third of its speed every step. Where the velocities before the step
-    // would have been the better start, the best point on the way to them is taken, which dissipates no more than those
-    // did: that bounds them.
-    if (rr > allowed) {
-        forMovers([&](int begin, int, int last, BlockSums&) {
+    // What velocities leave undone; what walls hold has no say in the iterations that follow.
+    const auto findResidual = [&] {
+        forMovers([&](int begin, int end, int last, BlockSums&) {
+            applyViscosity(f, p.velocity.data(), begin, end, false);
             for (int r = 8 * begin; r < last; ++r) {
                 const size_t i = static_cast<size_t>(r);
-                const Vec3 way = target_[i].xyz() - p.velocity[i].xyz();
-                direction_[i] = {way.x, way.y, way.z, 0};
+                Vec3 res = trait_[i].z * before_[i].xyz() - image_[i].xyz();
+                if (wallsMove_ && contactCount_[i]) res += wallPush_[i].xyz();
+                residual_[i] = {res.x, res.y, res.z, 0};
             }
         });
-        forMovers([&](int begin, int end, int, BlockSums& sums) {
-            applyViscosity(f, direction_.data(), begin, end);
-            sums.a = innerProduct(direction_.data(), image_.data(), 8 * begin, 8 * end);
-            sums.b = innerProduct(direction_.data(), residual_.data(), 8 * begin, 8 * end);
-        });
-        const double curvature = total(&BlockSums::a), slope = total(&BlockSums::b);
-        const double back = slope > 0.5 * curvature && curvature > 0 ? slope / curvature : 0;
-        forMovers([&](int begin, int end, int, BlockSums& sums) {
-            const Dots dots = advance(static_cast<float>(back), direction_.data(), image_.data(), diagonal_.data(),
-                                      p.velocity.data(), residual_.data(), 8 * begin, 8 * end);
-            turn(0, residual_.data(), diagonal_.data(), direction_.data(), 8 * begin, 8 * end);
-            sums.a = dots.a, sums.b = dots.b;
+    };
+    double rz = 0, rr = 0;
+    int iteration = 0;
+    for (int round = 0; round < (bonded_ ? kGripRounds : 1); ++round) {
+        // A body in flight moves as one: its own stiffness keeps that out of reach of the iterations.
+        if (bonded_ && round == 0) {
+            returnMomentum(f, false);
+            for (size_t i = 0; i < static_cast<size_t>(p.moverCount); ++i)
+                if (piece_[i] == kAfloat) piece_[i] = kUnknown;
+        }
+        findResidual();
+        if (bonded_) {
+            const bool changed = regrip(f);
+            if (round > 0 && !changed) break;
+            if (changed) findResidual();
+            forMovers([&](int begin, int, int last, BlockSums&) {
+                for (int r = 8 * begin; r < last; ++r)
+                    if (grip_[static_cast<size_t>(r)].w > 0) residual_[static_cast<size_t>(r)] = {};
+            });
+        }
+        forMovers([&](int begin, int, int last, BlockSums& sums) {
+            for (int r = 8 * begin; r < last; ++r) {
+                const size_t i = static_cast<size_t>(r);
+                const Vec3 res = residual_[i].xyz();
+                const Vec4 inverse = diagonal_[i];
+                const Vec3 z{res.x * inverse.x, res.y * inverse.y, res.z * inverse.z};
+                direction_[i] = {z.x, z.y, z.z, 0};
+                sums.a += static_cast<double>(dot(res, z)), sums.b += static_cast<double>(dot(res, res));
+            }
         });
         rz = total(&BlockSums::a), rr = total(&BlockSums::b);
-    }
 
-    int iteration = 0;
-    for (; iteration < f.viscosityIterations && rr > allowed && rz > 0; ++iteration) {
-        forMovers([&](int begin, int end, int, BlockSums& sums) {
-            applyViscosity(f, direction_.data(), begin, end);
-            sums.a = innerProduct(direction_.data(), image_.data(), 8 * begin, 8 * end);
-        });
-        const double curvature = total(&BlockSums::a);
-        if (!(curvature > 0)) break;
-        forMovers([&](int begin, int end, int, BlockSums& sums) {
-            const Dots dots = advance(static_cast<float>(rz / curvature), direction_.data(), image_.data(),
-                                      diagonal_.data(), p.velocity.data(), residual_.data(), 8 * begin, 8 * end);
-            sums.a = dots.a, sums.b = dots.b;
-        });
-        const double next = total(&BlockSums::a);
-        rr = total(&BlockSums::b);
-        const float keep = static_cast<float>(next / rz);
-        rz = next;
-        if (!(rr > allowed)) continue;
-        forMovers([&](int begin, int end, int, BlockSums&) {
-            turn(keep, residual_.data(), diagonal_.data(), direction_.data(), 8 * begin, 8 * end);
-        });
+        // Forces as in the last step are a good start, but velocities that the iterations do not reach go on
+        // accelerating with it: at 1e5 Pa s a free cylinder gained a third of its speed every step. Where the
+        // velocities before the step would have been the better start, the best point on the way to them is taken,
+        // which dissipates no more than those did: that bounds them.
+        if (round == 0 && rr > allowed) {
+            forMovers([&](int begin, int, int last, BlockSums&) {
+                for (int r = 8 * begin; r < last; ++r) {
+                    const size_t i = static_cast<size_t>(r);
+                    const Vec3 way = gripped(i) ? Vec3{} : target_[i].xyz() - p.velocity[i].xyz();
+                    direction_[i] = {way.x, way.y, way.z, 0};
+                }
+            });
+            forMovers([&](int begin, int end, int, BlockSums& sums) {
+                applyViscosity(f, direction_.data(), begin, end, true);
+                sums.a = innerProduct(direction_.data(), image_.data(), 8 * begin, 8 * end);
+                sums.b = innerProduct(direction_.data(), residual_.data(), 8 * begin, 8 * end);
+            });
+            const double curvature = total(&BlockSums::a), slope = total(&BlockSums::b);
+            const double back = slope > 0.5 * curvature && curvature > 0 ? slope / curvature : 0;
+            forMovers([&](int begin, int end, int, BlockSums& sums) {
+                const Dots dots = advance(static_cast<float>(back), direction_.data(), image_.data(), diagonal_.data(),
+                                          p.velocity.data(), residual_.data(), 8 * begin, 8 * end);
+                turn(0, residual_.data(), diagonal_.data(), direction_.data(), 8 * begin, 8 * end);
+                sums.a = dots.a, sums.b = dots.b;
+            });
+            rz = total(&BlockSums::a), rr = total(&BlockSums::b);
+        }
+
+        for (int n = 0; n < f.viscosityIterations && rr > allowed && rz > 0; ++n, ++iteration) {
+            forMovers([&](int begin, int end, int, BlockSums& sums) {
+                applyViscosity(f, direction_.data(), begin, end, true);
+                sums.a = innerProduct(direction_.data(), image_.data(), 8 * begin, 8 * end);
+            });
+            const double curvature = total(&BlockSums::a);
+            if (!(curvature > 0)) break;
+            forMovers([&](int begin, int end, int, BlockSums& sums) {
+                const Dots dots = advance(static_cast<float>(rz / curvature), direction_.data(), image_.data(),
+                                          diagonal_.data(), p.velocity.data(), residual_.data(), 8 * begin, 8 * end);
+                sums.a = dots.a, sums.b = dots.b;
+            });
+            const double next = total(&BlockSums::a);
+            rr = total(&BlockSums::b);
+            const float keep = static_cast<float>(next / rz);
+            rz = next;
+            if (!(rr > allowed)) continue;
+            forMovers([&](int begin, int end, int, BlockSums&) {
+                turn(keep, residual_.data(), diagonal_.data(), direction_.data(), 8 * begin, 8 * end);
+            });
+        }
     }
     stats_.viscosityIterations = iteration;
     stats_.iterationsClipped = rr > allowed;
@@ -175,7 +211,8 @@ void Motion::viscosity(const MotionFrame& f) {
     // A solve that met a number that is not finite must not spread it.
     const bool sound = std::isfinite(rr) && std::isfinite(rz);
 
-    if (sound) returnMomentum(f);
+    if (sound && bonded_ && reporting_) findResidual(), reportGrip(f);
+    if (sound) returnMomentum(f, wallsMove_ || reporting_ || heldMoves_);
     if (sound) reportHeldDrag(f);
     if (sound && reporting_)
         forMovers([&](int begin, int, int last, BlockSums&) {
@@ -196,7 +233,7 @@ void Motion::viscosity(const MotionFrame& f) {
             if (!sound) p.velocity[i] = before_[i];
             const Vec3 change = p.velocity[i].xyz() - before_[i].xyz();
             p.velocityChange[i] = {change.x, change.y, change.z, soften * p.velocityChange[i].w};
-            if (touches(i)) holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
+            if (touches(i) && !gripped(i)) holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
         }
     });
 }

@@ -23,6 +23,7 @@ struct Material {
     }
     Material() = default;
 
+    bool soft() const { return def.youngModulus > 0; }
     double kelvin(double H) const {
         if (H < 0) return def.solidus + H / def.specificHeatSolid;
         if (H >= latent) return def.liquidus + (H - latent) / def.specificHeatLiquid;

@@ -12,6 +12,7 @@ namespace thaw {
 enum ParticleFlag : uint8_t {
     kFixed = 1 << 0,   // solid and held
     kSurface = 1 << 1, // exposed to air
+    kAsleep = 1 << 2,  // fixed for as long as nothing pulls at its bonds
 };
 
 // Every per-particle quantity that lives from step to step: one list, used by sort, hash and removal alike.
@@ -30,6 +31,7 @@ enum ParticleFlag : uint8_t {
     X(float,                                                                                                           \
       rayMemory)    /* memory of the last rays, see heat.cpp: age, and one bit per source that was seen; 0 unknown */  \
     X(uint32_t, id) /* stable, never reused */                                                                         \
+    X(uint32_t, bondSlot) /* where its bonds are (Bonds), 0 none */                                                    \
     X(uint16_t, body)                                                                                                  \
     X(uint16_t, anchor) /* fixed: 1 + the collider that it hangs on, of those that are told apart; else 0 */           \
     X(uint8_t, material)                                                                                               \

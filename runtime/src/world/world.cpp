@@ -43,8 +43,8 @@ Transform toTransform(thawVec3 p, thawQuat q, float scale) {
 
 World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
-      motion_(allocator), heat_(allocator), hold_(allocator), anchors_(allocator), surface_(allocator),
-      volume_(allocator), invDensity_(allocator), blockTotals_(allocator) {
+      motion_(allocator), heat_(allocator), hold_(allocator), bonds_(allocator), anchors_(allocator),
+      surface_(allocator), volume_(allocator), invDensity_(allocator), blockTotals_(allocator) {
     particles.allocate(d.maxParticles);
     const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
     volume_.resize(n), invDensity_.resize(n);
@@ -277,8 +277,10 @@ bool World::heatDue(const thawWork& work) const { return steps_ % static_cast<ui
 
 int World::subStepsWanted(float dt) const {
     constexpr int kMost = 16; // the range of thawWork::subSteps
-    return Motion::subStepsWanted(particles, dt, {def.gravity.x, def.gravity.y, def.gravity.z}, def.particleSpacing,
-                                  kMost, colliders.data(), static_cast<int>(colliders.size()));
+    const Vec3 gravity{def.gravity.x, def.gravity.y, def.gravity.z};
+    const int wanted = Motion::subStepsWanted(particles, dt, gravity, def.particleSpacing, kMost, colliders.data(),
+                                              static_cast<int>(colliders.size()));
+    return std::max(wanted, bonds_.subStepsWanted(particles, dt, def.particleSpacing, kMost));
 }
 
 thawPlan World::previewPlan(const thawBudget& budget) const {
@@ -337,7 +339,24 @@ MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work) {
             def.particleSpacing,
             work.pressureIterations,
             work.viscosityIterations,
-            heldSpeed_};
+            heldSpeed_,
+            &bonds_};
+}
+
+BondFrame World::bondFrame(float dt) {
+    return {particles,
+            neighbors_,
+            volume_.data(),
+            materials.data(),
+            colliders.data(),
+            static_cast<int>(colliders.size()),
+            tasks,
+            dt,
+            {def.gravity.x, def.gravity.y, def.gravity.z}};
+}
+
+bool World::anySoft() const {
+    return std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.soft(); });
 }
 
 HeatFrame World::heatFrame(double dt, const thawWork& work) {
@@ -376,6 +395,11 @@ void World::holdAndRelease(float dt) {
     if (relabel) holdStale_ = false, stepsSinceRelabel_ = 0;
     if (r.released > 0) holdStale_ = true;
     if (r.changed()) listsStale_ = true;
+    if (anySoft()) {
+        const BondResult b = bonds_.update(bondFrame(dt));
+        if (b.released + b.woken > 0) holdStale_ = true;
+        if (b.changed()) listsStale_ = true;
+    }
     if (!toldApart_) return;
     const AnchorFrame frame{particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()), tasks};
     if ((relabel || (moved && anchors_.pressed(frame))) && anchors_.update(frame, false) > 0) listsStale_ = true;
@@ -466,6 +490,9 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
         for (const uint8_t material : materialOf) sum += materials[material].def.density;
         meanDensity = static_cast<float>(sum / static_cast<double>(materialOf.size()));
     }
+    const bool still = d.velocity.x == 0 && d.velocity.y == 0 && d.velocity.z == 0 && d.angularVelocity.x == 0 &&
+                       d.angularVelocity.y == 0 && d.angularVelocity.z == 0;
+    bool anySolid = false; // elastic
     const Vec3 gravity{def.gravity.x, def.gravity.y, def.gravity.z};
     float top = INFINITY;
     for (const Vec3& x : points) top = std::min(top, dot(x, gravity));
@@ -486,12 +513,14 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
         // What is liquid from the start carries the pressure of its depth: without it, it falls into itself for a third
         // of a second (in a tank by 4 % at the worst, by 10 % with half of that pressure).
         const bool liquid = phi >= m.def.releaseFraction;
+        const bool soft = !liquid && m.soft(), free = liquid || (soft && !still);
+        anySolid |= soft;
         const size_t k = static_cast<size_t>(particles.count++);
 #define X(type, name) particles.name[k] = type{};
         THAW_PARTICLE_FIELDS(X)
 #undef X
         particles.position[k] = {x.x, x.y, x.z, kSupport * def.particleSpacing};
-        const Vec3 v = liquid ? velocity + cross(spin, x - center) : Vec3{};
+        const Vec3 v = free ? velocity + cross(spin, x - center) : Vec3{};
         particles.velocity[k] = {v.x, v.y, v.z, mass};
         particles.pressure[k] = liquid ? meanDensity * (dot(x, gravity) - top) : 0.0f;
         particles.velocityChange[k] = {
@@ -503,7 +532,7 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
         particles.id[k] = nextId_++;
         particles.body[k] = static_cast<uint16_t>(slot);
         particles.material[k] = material;
-        particles.flags[k] = liquid ? 0 : kFixed;
+        particles.flags[k] = free ? 0 : soft ? kFixed | kAsleep : kFixed;
         massAdded_ += mass;
         energyAdded_ += static_cast<double>(mass) * H;
     }
@@ -519,6 +548,7 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     try {
         refreshNeighbors();
         refreshExposure();
+        if (anySolid) bonds_.bondAll(bondFrame(0));
     } catch (const std::bad_alloc&) {
         listsStale_ = true;
     }
@@ -654,7 +684,7 @@ uint64_t World::stateHash() const {
             bytes(v, sizeof v);
         }
     }
-    return h;
+    return bonds_.hash(h);
 }
 
 thawLedger World::ledger() const {

@@ -7,6 +7,7 @@
 #include "geometry/mesh_fill.h"
 #include "heat/heat.h"
 #include "motion/anchors.h"
+#include "motion/bonds.h"
 #include "motion/hold.h"
 #include "motion/motion.h"
 #include "neighbors/neighbors.h"
@@ -93,6 +94,8 @@ private:
     void arrive();
     void carryHeld(float dt, int subStep, int subSteps);
     void findAnchors();
+    BondFrame bondFrame(float dt);
+    bool anySoft() const; // some material is elastic
     void measure();
     void removeParticles(bool (*remove)(const Particles&, int, uint32_t), uint32_t argument);
 
@@ -101,6 +104,7 @@ private:
     Heat heat_;
     Hold hold_;
     Anchors anchors_;
+    Bonds bonds_;
     Surface surface_;
     Governor governor_;
     Array<float> volume_, invDensity_;

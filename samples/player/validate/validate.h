@@ -44,5 +44,6 @@ CaseList liquidCases();
 CaseList colliderCases();
 CaseList materialCases();
 CaseList impactCases();
+CaseList softCases();
 
 } // namespace thaw::player

@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "base/kernel.h"
+#include "motion/bond_pass.h"
+#include "motion/bonds.h"
+#include "motion/hold.h"
+#include "motion/numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thaw {
+namespace {
+
+// Spacings: what sets lies as near to a solid as this, and moves against it by less than so much a step.
+constexpr float kTouch = 1.25f, kDrift = 0.1f;
+// Spacings from a wall: what a body made there hangs on.
+constexpr float kAnchor = 1.0f;
+// In spacings a step, for so many steps, and with less than this share of its weight unbalanced: then it sleeps. It
+// wakes with more than kUnrest unbalanced.
+constexpr float kCalm = 3e-4f;
+constexpr uint8_t kCalmSteps = 30;
+constexpr float kRest = 0.02f, kUnrest = 0.06f;
+constexpr float kLeastGravity = 1; // m/s^2, for that measure where there is none
+// What sleeps among its like is looked at every so many steps while it warms.
+constexpr uint32_t kLookInterval = 4;
+constexpr float kFillRate = 0.1f; // of the way to what its bonds make up, per step: others take over bit by bit
+
+constexpr int kApproachMost = 4; // sub-steps
+constexpr int kRowBlock = 256;
+
+} // namespace
+
+void Bonds::gather(const BondFrame& f, int begin, int end, WallFinder& walls) const {
+    Box around;
+    float support = 0;
+    for (int i = begin; i < end; ++i) {
+        const Vec4 x = f.particles.position[static_cast<size_t>(i)];
+        around.grow(x.xyz()), support = std::max(support, x.w);
+    }
+    walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, kAnchor * support / kSupport);
+}
+
+// Whether a particle that is cold enough lies calmly against something solid, or something that sets with it.
+bool Bonds::findTouch(const BondFrame& f, uint32_t row) const {
+    const Particles& p = f.particles;
+    const Vec4 x = p.position[row];
+    bool touches = false;
+    forNeighbors(f.neighbors, static_cast<int>(row), [&](uint32_t j) {
+        if (j >= static_cast<uint32_t>(p.count)) return false;
+        if (!p.bondSlot[j] && !(p.flags[j] & kFixed) && state_[j] != kSets) return true;
+        const float d = 0.5f * (x.w + p.position[j].w) / kSupport;
+        const Vec3 to = p.position[j].xyz() - x.xyz();
+        if (dot(to, to) > kTouch * kTouch * d * d) return true;
+        touches = length(p.velocity[j].xyz() - p.velocity[row].xyz()) * f.dt < kDrift * d;
+        return !touches;
+    });
+    return touches;
+}
+
+// Bonds of the rows that state_ marks as setting, with everything solid around them.
+void Bonds::bondRows(const BondFrame& f, BondResult& result) {
+    Particles& p = f.particles;
+    const uint32_t n = static_cast<uint32_t>(p.count);
+    reserve(p.capacity);
+    for (uint32_t i = 0; i < n; ++i)
+        if (state_[i] == kSets && !p.bondSlot[i]) take(p, i), ++result.set;
+    for (uint32_t i = 0; i < n; ++i) {
+        if (state_[i] != kSets) continue;
+        forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
+            if (j >= n) return false;
+            if (state_[j] == kSets && j > i) return true; // its turn comes
+            if (!p.bondSlot[j] && !(p.flags[j] & kFixed)) return true;
+            const float d = 0.5f * (p.position[i].w + p.position[j].w) / kSupport;
+            const float r = length(p.position[j].xyz() - p.position[i].xyz());
+            if (!(r < kReach * d) || !(r > 0)) return true;
+            if (!p.bondSlot[j]) calm_[take(p, j)] = 1;
+            connect(p.bondSlot[i], p.bondSlot[j], r);
+            return true;
+        });
+    }
+    for (uint32_t i = 0; i < n; ++i)
+        if (const uint32_t slot = p.bondSlot[i]; slot && touched_[slot]) refill(p, f.volume, slot);
+}
+
+BondResult Bonds::bondAll(const BondFrame& f) {
+    Particles& p = f.particles;
+    BondResult result;
+    reserve(p.capacity);
+    mapRows(p);
+    for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) {
+        const Material& m = f.materials[p.material[i]];
+        const bool sets = !p.bondSlot[i] && m.soft() && p.liquidFraction[i] < m.def.releaseFraction;
+        state_[i] = sets ? kSets : kStay;
+    }
+    bondRows(f, result);
+    return result;
+}
+
+// Force on a solid particle that is not carried by anything, N: springs, weight, pressure of liquid around it. Walls
+// take what is pressed against them and hold it by friction.
+Vec3 Bonds::imbalance(const BondFrame& f, uint32_t row) const {
+    const Particles& p = f.particles;
+    const Vec4 x = p.position[row];
+    const uint32_t slot = p.bondSlot[row];
+    Vec3 force = p.velocity[row].w * f.gravity;
+    const Elastic own = elastic(f.materials, p, row);
+    const Bond* b = bondsOf(slot);
+    for (int k = 0; k < count_[slot]; ++k) {
+        const uint32_t j = rowOf_[b[k].other];
+        const Vec3 d = x.xyz() - p.position[j].xyz();
+        const float r = std::max(length(d), 1e-12f);
+        const float stiff = b[k].weight * pairStiffness(own, elastic(f.materials, p, j));
+        force += (stiff * std::min(b[k].rest - r, kMostPress * b[k].rest) / r) * d;
+    }
+    const uint32_t g = row >> 3, lane = row & 7;
+    const size_t first = f.neighbors.first[g] + lane;
+    for (uint32_t k = 0; k < f.neighbors.width[g]; ++k) {
+        const uint32_t j = f.neighbors.entries[first + 8 * k] >> 4;
+        if (j >= static_cast<uint32_t>(p.count)) break;
+        if (p.bondSlot[j] || (p.flags[j] & kFixed)) {
+            const Vec3 d = x.xyz() - p.position[j].xyz();
+            const float near = kContact * 0.5f * (x.w + p.position[j].w) / kSupport;
+            if (!(dot(d, d) < near * near) || (p.bondSlot[j] && bonded(slot, p.bondSlot[j]))) continue;
+            Elastic other;
+            if (p.bondSlot[j]) other = elastic(f.materials, p, j);
+            const float r = std::max(length(d), 1e-12f);
+            force += (contactStiffness(own, other, near / kContact) * std::min(near - r, kMostPress * near) / r) * d;
+        } else if (p.pressure[j] > 0) {
+            const Vec3 d = x.xyz() - p.position[j].xyz();
+            force -= (f.volume[row] * p.pressure[j] * f.neighbors.gradient[first + 8 * k]) * d;
+        }
+    }
+    return force;
+}
+
+// Sleep and waking of rows that have bonds.
+void Bonds::settle(const BondFrame& f, BondResult& result) {
+    Particles& p = f.particles;
+    const float weight = std::max(length(f.gravity), kLeastGravity);
+    f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
+        WallFinder walls;
+        bool gathered = false;
+        const auto unbalanced = [&](uint32_t i) {
+            Vec3 force = imbalance(f, i);
+            if (!gathered) gather(f, begin, end, walls), gathered = true;
+            const float near = kAnchor * p.position[i].w / kSupport;
+            walls.forNear(p.position[i].xyz(), near, [&](float d, Vec3 n, const Collider&) {
+                if (d < near && dot(n, force) < 0) force = {};
+            });
+            return length(force) / (p.velocity[i].w * weight);
+        };
+        for (int r = begin; r < end; ++r) {
+            const uint32_t i = static_cast<uint32_t>(r), slot = p.bondSlot[i];
+            state_[i] = kStay;
+            if (!slot) continue;
+            const Material& m = f.materials[p.material[i]];
+            fill_[slot] += kFillRate * (fillGoal_[slot] - fill_[slot]);
+            if ((p.flags[i] & kFixed) && (p.flags[i] & kAsleep)) {
+                if (calm_[slot] == kNewborn) {
+                    bool near = false;
+                    if (!gathered) gather(f, begin, end, walls), gathered = true;
+                    const float reach = kAnchor * p.position[i].w / kSupport;
+                    walls.forNear(p.position[i].xyz(), reach,
+                                  [&](float d, Vec3, const Collider&) { near |= d < reach; });
+                    state_[i] = near ? kAnchors : kWakes;
+                    continue;
+                }
+                const bool due =
+                    (slot + steps_) % kLookInterval == 0 &&
+                    (p.liquidFraction[i] > 0 || std::abs(fill_[slot] - fillGoal_[slot]) > 1e-3f * fill_[slot]);
+                if ((due || beside(f, i)) && unbalanced(i) > kUnrest) state_[i] = kWakes;
+            } else if (!(p.flags[i] & kFixed)) {
+                const float spacing = p.position[i].w / kSupport;
+                if (calm_[slot] == kNewborn) calm_[slot] = 1;
+                // What creeps is never at rest as long as it is under stress.
+                if (!m.soft() || m.def.relaxationTime > 0 || !(length(p.velocity[i].xyz()) * f.dt < kCalm * spacing)) {
+                    calm_[slot] = 1;
+                } else if (calm_[slot] <= kCalmSteps) {
+                    ++calm_[slot];
+                } else if (unbalanced(i) < kRest) {
+                    state_[i] = kSleeps;
+                }
+            }
+        }
+    });
+    for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) {
+        if (state_[i] == kStay) continue;
+        const uint32_t slot = p.bondSlot[i];
+        calm_[slot] = 1;
+        if (state_[i] == kSleeps) {
+            p.flags[i] |= kFixed | kAsleep, ++result.slept;
+            p.velocity[i].setXyz({});
+        } else if (state_[i] == kWakes) {
+            p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~(kFixed | kAsleep)), ++result.woken;
+            p.anchor[i] = 0; // its velocity stays that of what it hung on
+        } else {
+            p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~kAsleep);
+        }
+        p.velocityChange[i] = {};
+    }
+}
+
+// Sub-steps so that bodies that fall on each other come nearer by a spacing in each: by their boxes and mean
+// velocities.
+int Bonds::subStepsWanted(const Particles& p, float dt, float spacing, int limit) const {
+    if (live_ == 0 || p.moverCount == 0) return 1;
+    struct Crowd { // what has bonds of a body
+        Box box;
+        Vec3 velocity; // summed
+        float count = 0;
+    };
+    constexpr size_t kBodies = 64;
+    Crowd crowd[kBodies];
+    for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) {
+        if (!p.bondSlot[i] || p.body[i] >= kBodies) continue;
+        Crowd& c = crowd[p.body[i]];
+        c.box.grow(p.position[i].xyz()), c.velocity += p.velocity[i].xyz(), c.count += 1;
+    }
+    float most = 0;
+    for (size_t a = 0; a < kBodies; ++a)
+        for (size_t b = 0; b < a; ++b) {
+            const Crowd &x = crowd[a], &y = crowd[b];
+            if (x.count == 0 || y.count == 0) continue;
+            const Vec3 way = dt * ((1 / x.count) * x.velocity - (1 / y.count) * y.velocity);
+            const float near = spacing + length(way);
+            if (x.box.lower.x - y.box.upper.x > near || y.box.lower.x - x.box.upper.x > near ||
+                x.box.lower.y - y.box.upper.y > near || y.box.lower.y - x.box.upper.y > near ||
+                x.box.lower.z - y.box.upper.z > near || y.box.lower.z - x.box.upper.z > near)
+                continue;
+            most = std::max(most, length(way) / spacing);
+        }
+    return std::clamp(static_cast<int>(std::ceil(most / kApproachPerStep)), 1, std::min(limit, kApproachMost));
+}
+
+BondResult Bonds::update(const BondFrame& f) {
+    Particles& p = f.particles;
+    BondResult result;
+    const size_t n = static_cast<size_t>(p.count);
+    ++steps_;
+    mapRows(p);
+    bool setting = false;
+    if (state_.size() < n) state_.resizeRaw(static_cast<size_t>(p.capacity) + 1);
+    for (size_t i = 0; i < n; ++i) {
+        const Material& m = f.materials[p.material[i]];
+        state_[i] = kStay;
+        if (const uint32_t slot = p.bondSlot[i]) {
+            if (!(p.liquidFraction[i] > m.def.releaseFraction)) continue;
+            drop(slot);
+            p.bondSlot[i] = 0;
+            ++result.released;
+            p.anchor[i] = 0;
+            p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~(kFixed | kAsleep));
+            if (!(p.velocityChange[i].w > 0))
+                p.velocityChange[i] = {0, 0, 0,
+                                       stiffStart(m.viscosity(p.liquidFraction[i]), m.def.density,
+                                                  p.position[i].w / kSupport, p.pressure[i])};
+            p.stiffness[i] = 0;
+        } else if (m.soft() && p.liquidFraction[i] < m.def.setFraction) {
+            state_[i] = kSets, setting = true;
+        }
+    }
+    if (setting) {
+        setting = false;
+        for (size_t i = 0; i < n; ++i)
+            if (state_[i] == kSets && !(p.flags[i] & kFixed) && !findTouch(f, static_cast<uint32_t>(i)))
+                state_[i] = kStay;
+            else
+                setting |= state_[i] == kSets;
+    }
+    if (setting)
+        bondRows(f, result);
+    else if (result.released)
+        for (uint32_t s = 1; s < rowOf_.size(); ++s)
+            if (calm_[s] && touched_[s]) refill(p, f.volume, s);
+    if (live_ == 0) return result;
+    colliderBounds_.resizeRaw(static_cast<size_t>(f.colliderCount));
+    for (int c = 0; c < f.colliderCount; ++c)
+        if (f.colliders[c].alive) colliderBounds_[static_cast<size_t>(c)] = f.colliders[c].bounds();
+    settle(f, result);
+    return result;
+}
+
+} // namespace thaw
