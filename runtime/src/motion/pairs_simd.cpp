@@ -201,8 +201,7 @@ void separationGroups(const SeparationPass& p, int begin, int end) {
     // Measured: pairs nearer than 0.65 spacings clump (28 % of a puddle without this pass, none with it); moving more
     // than 0.3 of that distance at once, or all of the overlap, throws neighbours.
     // Held particles keep a little more: between four of them the way in would be free below 0.71.
-    // What sets beside a particle starts to do so: with 0.7 that is a jump of 0.056 spacings.
-    constexpr float kShare = 0.65f, kHeldShare = 0.73f, kStep = 0.3f, kRelax = 0.7f, kHeldRelax = 0.6f;
+    constexpr float kShare = 0.65f, kHeldShare = 0.73f, kStep = 0.3f, kRelax = 0.7f;
     for (int g = begin; g < end; ++g)
         for (int part = 0; part < 8; part += kLanes) {
             const Span s = spanOf(p.lists, g, part);
@@ -228,7 +227,7 @@ void separationGroups(const SeparationPass& p, int begin, int end) {
                 x = hn::IfThenElse(same, hn::IfThenElse(before, least, hn::Neg(least)), x);
                 y = hn::IfThenZeroElse(same, y), z = hn::IfThenZeroElse(same, z);
                 const F32 r = hn::IfThenElse(same, least, hn::Sqrt(r2));
-                const F32 share = hn::IfThenElse(held, all(kHeldRelax), all(0.5f * kRelax));
+                const F32 share = hn::IfThenElse(held, all(kRelax), all(0.5f * kRelax));
                 const F32 step = hn::Mul(share, hn::Min(hn::Sub(d, r), hn::Mul(all(kStep), d)));
                 const F32 f = hn::IfThenElseZero(close, hn::Div(step, r));
                 ox = hn::MulAdd(f, x, ox), oy = hn::MulAdd(f, y, oy), oz = hn::MulAdd(f, z, oz);

@@ -43,7 +43,7 @@ Transform toTransform(thawVec3 p, thawQuat q, float scale) {
 
 World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
-      motion_(allocator), heat_(allocator), hold_(allocator), bonds_(allocator), anchors_(allocator),
+      motion_(allocator), heat_(allocator), hold_(allocator), anchors_(allocator), bonds_(allocator),
       surface_(allocator), volume_(allocator), invDensity_(allocator), blockTotals_(allocator) {
     particles.allocate(d.maxParticles);
     const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
