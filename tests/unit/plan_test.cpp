@@ -8,7 +8,7 @@ using namespace thaw;
 
 namespace {
 
-constexpr thawWork kFull{4, 4, 12, 1, 1.0f};
+constexpr thawWork kFull{4, 4, 12, 1, 1.0f, 1};
 
 Needs busy() {
     Needs n;
@@ -158,7 +158,7 @@ TEST_CASE("governor: climbs back one level at a time and only after many good fr
 TEST_CASE("governor: never more than the host's limit") {
     Governor g;
     float predicted;
-    thawWork limit{2, 3, 5, 2, 0.5f};
+    thawWork limit{2, 3, 5, 2, 0.5f, 1};
     thawWork w = g.choose(busy(), 1e4f, limit, 8, predicted);
     CHECK(w.subSteps <= 2);
     CHECK(w.pressureIterations == 3);
