@@ -71,6 +71,7 @@ struct Body {
     int material = 0;        // index into Scene::materials
     float temperature = NAN; // K, range 100..10000; NaN: ambient
     std::vector<Part> parts; // at most 64, later ones count where they overlap
+    bool anchored = true;    // stuck to the collider that it touches; false: stands free
 };
 
 struct Collider {

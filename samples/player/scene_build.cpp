@@ -211,6 +211,7 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
             if (part.depth <= 0) part.mesh = meshes.parts[i][k].view();
         }
         d.parts = parts.data(), d.partCount = int32_t(parts.size());
+        d.anchored = b.anchored;
         thawBodyId id{};
         thawMeshReport report{};
         const thawResult result = thawCreateBody(raw, &d, &id, &report);

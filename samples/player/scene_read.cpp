@@ -483,6 +483,7 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         readShape(r, body.shape, false);
         readPlacement(r, body.placement);
         r.kelvin("temperature", body.temperature);
+        r.flag("anchored", body.anchored);
         body.material = readBodyMaterial(r, scene, body.name);
         r.list("parts", 64, [&](const json& part, const std::string& where) {
             Reader q(part, where, file);

@@ -196,6 +196,7 @@ std::string writeScene(const Scene& scene) {
                                    addShape(p, part.shape), addPlacement(p, part.placement);
                                return p.end();
                            }));
+                 if (!body.anchored) o.add("anchored", boolean(body.anchored));
                  return o.end();
              }));
     root.add("colliders", list(scene.colliders, 2, [](const Collider& collider, int indent) {

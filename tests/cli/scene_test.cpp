@@ -58,6 +58,7 @@ Scene fullScene() {
         Part deep;
         deep.depth = 0.0123f, deep.material = 2;
         if (type != ShapeType::cone) b.parts = {inner, deep};
+        b.anchored = type != ShapeType::box;
         s.bodies.push_back(b);
         Collider c;
         c.name = "wall";
@@ -126,6 +127,7 @@ TEST_CASE("every field of a scene survives writing and reading") {
         CHECK(a.bodies[i].name == b.bodies[i].name);
         CHECK(std::memcmp(&a.bodies[i].placement, &b.bodies[i].placement, sizeof(Placement)) == 0);
         CHECK(a.bodies[i].material == b.bodies[i].material);
+        CHECK(a.bodies[i].anchored == b.bodies[i].anchored);
         CHECK(std::isnan(a.bodies[i].temperature) == std::isnan(b.bodies[i].temperature));
         if (!std::isnan(a.bodies[i].temperature)) CHECK(a.bodies[i].temperature == b.bodies[i].temperature);
         REQUIRE(a.bodies[i].parts.size() == b.bodies[i].parts.size());

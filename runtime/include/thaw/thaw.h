@@ -252,6 +252,8 @@ typedef struct thawBodyDef {
     thawVec3 angularVelocity;  /* rad/s about the centre of mass, right-handed; each |.| <= 1000, default 0 */
     const thawBodyPart* parts; /* partCount of them; where parts overlap the later one counts; default NULL */
     int32_t partCount;         /* range 0..64, default 0 */
+    bool anchored; /* default true: solid that hangs together with a collider is stuck to it. false: it stands free, a
+                      rigid piece that can be pushed and fall over */
 } thawBodyDef;
 
 THAW_API void thawInitBodyDef(thawBodyDef* def);
@@ -409,15 +411,16 @@ THAW_API uint32_t thawWorld_Step(thawWorld* world, float timeStep, const thawBud
 /* ---- results ---------------------------------------------------------------------------------------------------- */
 
 typedef enum thawParticleFlags {
-    thawParticle_fixed = 1 << 0,   /* solid and held: does not move */
+    thawParticle_fixed = 1 << 0,   /* solid: held, or part of a rigid piece */
     thawParticle_surface = 1 << 1, /* exposed to air */
-    thawParticle_asleep = 1 << 2   /* elastic and held as long as its load stays what it is */
+    thawParticle_asleep = 1 << 2,  /* elastic and held as long as its load stays what it is */
+    thawParticle_rigid = 1 << 3    /* solid that nothing anchors: moves with its rigid piece, or rests with it */
 } thawParticleFlags;
 
 /* Structure of arrays, `count` long each. Order changes from step to step; ids are stable. */
 typedef struct thawParticleView {
     int32_t count;
-    int32_t moving;            /* the first `moving` rows moved in the last step, the rest was held; flags are newer */
+    int32_t moving; /* the first `moving` rows flowed in the last step; the rest was held, or rigid; flags are newer */
     const float* positions;    /* x y z r: m; r is the radius of the particle's sphere of influence for drawing */
     const float* velocities;   /* x y z m: m/s, and mass in kg */
     const float* temperatures; /* K */
@@ -429,6 +432,20 @@ typedef struct thawParticleView {
     const uint8_t* flags;         /* thawParticleFlags */
 } thawParticleView;
 THAW_API void thawWorld_GetParticles(const thawWorld* world, thawParticleView* out);
+
+/* A piece of solid that nothing anchors: cut loose by melting, or a body that stands free. It falls, lands, is pushed
+ * and floats as one rigid body until it melts. */
+typedef struct thawPieceState {
+    uint32_t id;       /* stable, never used twice in a world; of a piece that falls apart, the largest part keeps it */
+    int32_t particles; /* that it had in the last step */
+    float mass;        /* kg */
+    thawVec3 center;   /* m, centre of mass */
+    thawVec3 velocity; /* m/s, of the centre */
+    thawVec3 angularVelocity; /* rad/s */
+    bool asleep;              /* rests, at no cost, until something wakes it */
+} thawPieceState;
+/* Writes up to `capacity` pieces to out (NULL when capacity is 0) and returns how many there are. */
+THAW_API int32_t thawWorld_GetPieces(const thawWorld* world, thawPieceState* out, int32_t capacity);
 
 typedef struct thawSurfaceDef {
     uint32_t structSize, cookie;
@@ -463,7 +480,8 @@ typedef struct thawLedger {
 THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);
 
 typedef struct thawCounters {
-    int32_t particles, moving, fixed, surface, capacity;
+    int32_t particles, moving, fixed, surface, capacity; /* moving: liquid, and rigid pieces that are awake */
+    int32_t pieces; /* rigid ones, awake or asleep */
     int32_t bodies, colliders, heatSources, materials;
     int32_t subSteps, pressureIterations, viscosityIterations; /* of the last step; iterations summed over sub-steps */
     int32_t rays, neighborsMax;

@@ -355,7 +355,7 @@ const char* thawWorld_GetLastError(const thawWorld* world) { return world ? worl
 thawResult thawWorld_SetGravity(thawWorld* world, thawVec3 gravity) {
     return guarded(world, [&](World& w, Check& c) {
         c.finite("gravity", gravity, 1000);
-        if (c.ok()) w.def.gravity = gravity;
+        if (c.ok()) w.def.gravity = gravity, w.wakePieces();
     });
 }
 
@@ -400,6 +400,7 @@ void thawInitBodyDef(thawBodyDef* def) {
     def->rotation = {0, 0, 0, 1};
     def->scale = 1;
     def->temperature = std::numeric_limits<float>::quiet_NaN();
+    def->anchored = true;
 }
 
 thawResult thawCreateBody(thawWorld* world, const thawBodyDef* def, thawBodyId* outId, thawMeshReport* meshReport) {
@@ -643,6 +644,10 @@ thawResult thawWorld_ExtractSurface(thawWorld* world, const thawSurfaceDef* def,
         c.range("smoothing", def->smoothing, 0, 50);
         if (c.ok()) w.extractSurface(*def, *out);
     });
+}
+
+int32_t thawWorld_GetPieces(const thawWorld* world, thawPieceState* out, int32_t capacity) {
+    return world ? world->world.pieces(out, out ? capacity : 0) : 0;
 }
 
 void thawWorld_GetLedger(const thawWorld* world, thawLedger* out) {

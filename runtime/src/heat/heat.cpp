@@ -299,7 +299,7 @@ void Heat::radiation(const HeatFrame& f) {
             else if (m.priority[at] == kUnknown)
                 memory = remember(0, seen[e - begin]);
             else {
-                const int age = ageOf(memory) + (p.fixed(m.exposed[at]) ? 1 : kMoverAge);
+                const int age = ageOf(memory) + (p.still(m.exposed[at]) ? 1 : kMoverAge);
                 memory = remember(std::min(kOldest, age), seenOf(memory));
             }
             m.power[row] = received[e - begin] * f.materials[p.material[row]].def.absorptivity * p.normal[row].w;

@@ -57,7 +57,8 @@ bool Anchors::pressedAt(const AnchorFrame& f, size_t i, uint16_t anchor) const {
     }
     bool pressed = false;
     forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
-        if (j >= static_cast<uint32_t>(p.count) || !(p.flags[j] & kFixed) || p.anchor[j] == p.anchor[i]) return true;
+        if (j >= static_cast<uint32_t>(p.count) || !(p.flags[j] & kFixed) || p.piece[j] || p.anchor[j] == p.anchor[i])
+            return true;
         const Vec3 d = x - p.position[j].xyz();
         const float r = length(d);
         if (!(r > 0 && r < kPressHeld * spacing)) return true;
@@ -73,7 +74,7 @@ bool Anchors::pressed(const AnchorFrame& f) {
     f.tasks.forBlocks(f.particles.count, kRowBlock, [&](int begin, int end, int block, int) {
         for (int i = begin; i < end && !found_[static_cast<size_t>(block)]; ++i) {
             const size_t k = static_cast<size_t>(i);
-            if ((f.particles.flags[k] & kFixed) && pressedAt(f, k, f.particles.anchor[k]))
+            if ((f.particles.flags[k] & kFixed) && !f.particles.piece[k] && pressedAt(f, k, f.particles.anchor[k]))
                 found_[static_cast<size_t>(block)] = 1;
         }
     });
@@ -90,7 +91,7 @@ int Anchors::update(const AnchorFrame& f, bool fresh) {
     queue_.reserve(static_cast<size_t>(p.capacity));
     int loose = 0;
     for (uint32_t seed = 0; seed < static_cast<uint32_t>(p.count); ++seed) {
-        if (state_[seed] || !(p.flags[seed] & kFixed)) continue;
+        if (state_[seed] || !(p.flags[seed] & kFixed) || p.piece[seed]) continue;
         const uint16_t before = p.anchor[seed];
         for (int32_t& t : touched_) t = 0;
         uint16_t adopted = before;
@@ -112,7 +113,8 @@ int Anchors::update(const AnchorFrame& f, bool fresh) {
                     ++touched_[toldApart(f.colliders[c]) ? static_cast<size_t>(c) + 1 : 0];
             }
             forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
-                if (j >= static_cast<uint32_t>(p.count) || !(p.flags[j] & kFixed) || !linked(p, i, j)) return true;
+                if (j >= static_cast<uint32_t>(p.count) || !(p.flags[j] & kFixed) || p.piece[j] || !linked(p, i, j))
+                    return true;
                 if (p.anchor[j] != before) {
                     if (!adopts || p.anchor[j] < adopted) adopted = p.anchor[j], adopts = true;
                 } else if (!state_[j]) {

@@ -3,6 +3,7 @@
 #include "motion/motion.h"
 #include "motion/numbers.h"
 #include "motion/pairs.h"
+#include "motion/rigid_liquid.h"
 
 #include <algorithm>
 
@@ -41,6 +42,9 @@ void Motion::forces(const MotionFrame& f) {
             p.velocity[i].setXyz(v);
         }
     });
+    if (!f.coupling) return;
+    f.coupling->gather(f, trait_.data(), densityFeedback(f.subSteps), wallGradient_.data());
+    if (f.coupling->any()) f.coupling->settle(f);
 }
 
 } // namespace thaw

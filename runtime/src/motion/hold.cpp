@@ -5,6 +5,7 @@
 #include "base/kernel.h"
 #include "motion/carry.h"
 #include "motion/numbers.h"
+#include "motion/rigid_numbers.h"
 
 #include <algorithm>
 
@@ -28,6 +29,13 @@ bool nearWall(const WallFinder& walls, Vec3 p, float reach) {
     bool near = false;
     walls.forNear(p, reach, [&](float distance, Vec3, const Collider&) { near |= distance < reach; });
     return near;
+}
+
+bool touching(const Particles& p, uint32_t i, uint32_t j) {
+    const Vec4 x = p.position[i], y = p.position[j];
+    const float reach = kLink * 0.5f * (x.w + y.w) / kSupport;
+    const Vec3 d = y.xyz() - x.xyz();
+    return dot(d, d) < reach * reach;
 }
 
 } // namespace
@@ -67,7 +75,7 @@ bool Hold::touchesToldApart(const HoldFrame& f, int row, const WallFinder& walls
             const Vec3 d = p.position[j].xyz() - x;
             const float mean = 0.5f * (1 + p.position[j].w / p.position[k].w);
             touches = slow(p.velocity[j].xyz(), length(d) / mean, kTouch, kRestTouch);
-            if (touches) anchor_[k] = p.anchor[j];
+            if (touches) anchor_[k] = p.anchor[j], against_[k] = p.piece[j];
             return !touches;
         });
     return touches;
@@ -91,40 +99,43 @@ HoldResult Hold::decide(const HoldFrame& f, int begin, int end) {
         }
         if (phi >= m.def.setFraction || p.bondSlot[k]) continue;
         const float spacing = p.position[k].w / kSupport;
-        const float moved = length(p.velocity[k].xyz()) * f.dt;
+        against_[k] = 0;
         if (f.toldApart) {
             if (!gathered) gather(f, begin, end, walls), gathered = true;
             if (touchesToldApart(f, i, walls)) state_[k] = kSet, ++result.set;
             continue;
         }
-        if (moved > kSlow * spacing) continue;
-        const bool rests = moved < kRest * spacing;
-        const Vec3 x = p.position[k].xyz();
-        if (!gathered) gather(f, begin, end, walls), gathered = true;
-        bool touches = nearWall(walls, x, (rests ? kRestWallTouch : kWallTouch) * spacing);
+        const Vec3 x = p.position[k].xyz(), v = p.velocity[k].xyz();
+        const float moved = length(v) * f.dt;
+        const bool slow = moved <= kSlow * spacing;
+        if (!slow && !f.rigid.any()) continue;
+        const auto rests = [&](float by) { return by < kRest * spacing; };
+        if (slow && !gathered) gather(f, begin, end, walls), gathered = true;
+        bool touches = slow && nearWall(walls, x, (rests(moved) ? kRestWallTouch : kWallTouch) * spacing);
         // What is elastic bonds with what it lies against (Bonds): only a wall holds it.
-        if (!touches && !m.soft())
+        if (!touches && !m.soft()) {
+            // What is fixed may be on its way: only what is slow against it sets, on the nearest.
+            float nearest = INFINITY;
             forNeighbors(f.neighbors, i, [&](uint32_t j) {
                 if (j >= static_cast<uint32_t>(p.count) || !(p.flags[j] & kFixed)) return true;
-                const float reach = (rests ? kRestTouch : kTouch) * 0.5f * (spacing + p.position[j].w / kSupport);
-                Vec3 d = p.position[j].xyz() - x;
-                touches = dot(d, d) < reach * reach;
-                return !touches;
+                const float by = p.piece[j] ? length(v - p.velocity[j].xyz()) * f.dt : moved;
+                if (by > kSlow * spacing) return true;
+                const float reach = (rests(by) ? kRestTouch : kTouch) * 0.5f * (spacing + p.position[j].w / kSupport);
+                const Vec3 d = p.position[j].xyz() - x;
+                const float r2 = dot(d, d);
+                if (r2 < reach * reach && r2 < nearest) nearest = r2, against_[k] = p.piece[j], touches = true;
+                return true;
             });
+        }
         if (touches) state_[k] = kSet, ++result.set;
     }
     return result;
 }
 
-// Marks in state_ every fixed row that hangs together with a collider.
+// Marks in state_ every row that is held: fixed, of no rigid piece, and hanging together with a collider.
 void Hold::reach(const HoldFrame& f) {
     const Particles& p = f.particles;
-    const auto linked = [&](uint32_t i, uint32_t j) {
-        const Vec4 x = p.position[i], y = p.position[j];
-        const float reach = kLink * 0.5f * (x.w + y.w) / kSupport;
-        const Vec3 d = y.xyz() - x.xyz();
-        return dot(d, d) < reach * reach;
-    };
+    const auto linked = [&](uint32_t i, uint32_t j) { return touching(p, i, j); };
     const auto reached = [&](uint32_t i) {
         // The row before is mostly a neighbour, and at hand.
         if (i > 0 && state_[i - 1] == kReached && linked(i - 1, i)) return true;
@@ -145,7 +156,7 @@ void Hold::reach(const HoldFrame& f) {
         for (int row = begin; row < end; ++row) {
             const uint32_t i = static_cast<uint32_t>(row);
             state_[i] = kStay;
-            if (!(p.flags[i] & kFixed)) continue;
+            if (!(p.flags[i] & kFixed) || p.piece[i]) continue;
             bool held = reached(i);
             if (!held) {
                 if (!gathered) gather(f, begin, end, walls), gathered = true;
@@ -169,20 +180,12 @@ void Hold::reach(const HoldFrame& f) {
             queue_.resizeRaw(queue_.size() - 1);
             forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
                 if (j < static_cast<uint32_t>(p.count) && state_[j] != kReached && (p.flags[j] & kFixed) &&
-                    linked(i, j))
+                    !p.piece[j] && linked(i, j))
                     state_[j] = kReached, queue_.push(j);
                 return true;
             });
         }
     }
-}
-
-void Hold::letGo(const HoldFrame& f, size_t i) const {
-    Particles& p = f.particles;
-    p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~(kFixed | kAsleep));
-    p.anchor[i] = 0; // its velocity stays that of what it hung on
-    p.velocityChange[i] = {};
-    p.stiffness[i] = 0;
 }
 
 // What was let go (queue_) starts with the pressure of what lies loose above it, and stiff. Without that pressure a
@@ -215,15 +218,101 @@ void Hold::pressurize(const HoldFrame& f) {
     }
 }
 
-HoldResult Hold::update(const HoldFrame& f) {
+// Row i moves from now on. What rested on it or beside it looks again.
+void Hold::letGo(const HoldFrame& f, size_t i) const {
     Particles& p = f.particles;
-    const size_t n = static_cast<size_t>(p.count);
-    state_.resizeRaw(n);
+    if (p.piece[i]) f.rigid.lost(p.piece[i]);
+    p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~(kFixed | kAsleep | kRigid));
+    p.piece[i] = 0;
+    p.anchor[i] = 0; // its velocity stays that of what it hung on
+    p.velocityChange[i] = {};
+    p.stiffness[i] = 0;
+    if (!f.rigid.any()) return;
+    forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
+        if (j < static_cast<uint32_t>(p.count) && p.piece[j]) f.rigid.wake(p.piece[j]);
+        return true;
+    });
+}
+
+// The rows of a piece, or those that are not held (piece 0), by what hangs together: the largest part of a piece stays
+// that piece, the others become pieces of their own, and a few particles a lump.
+int Hold::separate(const HoldFrame& f, uint16_t piece) {
+    Particles& p = f.particles;
+    int cut = 0;
+    const uint32_t n = static_cast<uint32_t>(p.count);
+    // What is elastic moves by its bonds.
+    const auto soft = [&](uint32_t i) { return f.materials[p.material[i]].soft(); };
+    const auto open = [&](uint32_t i) {
+        return (p.flags[i] & kFixed) && p.piece[i] == piece && state_[i] != kReached && !soft(i);
+    };
+    for (uint32_t i = 0; i < n && !piece; ++i)
+        if ((p.flags[i] & kFixed) && !p.piece[i] && state_[i] != kReached && soft(i)) letGo(f, i), ++cut;
+    // The largest first part stays; parts come one after the other in queue_.
+    const auto flood = [&](uint32_t seed) {
+        queue_.clear();
+        queue_.push(seed), state_[seed] = kReached;
+        for (size_t head = 0; head < queue_.size(); ++head) {
+            const uint32_t i = queue_[head];
+            forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
+                if (j < n && open(j) && touching(p, i, j)) state_[j] = kReached, queue_.push(j);
+                return true;
+            });
+        }
+    };
+    size_t most = 0;
+    uint32_t keeper = n;
+    if (piece) {
+        for (uint32_t i = 0; i < n; ++i)
+            if (open(i)) {
+                flood(i);
+                if (queue_.size() > most) most = queue_.size(), keeper = i;
+            }
+        if (most < kLeastPiece) keeper = n;
+        for (uint32_t i = 0; i < n; ++i)
+            if (p.piece[i] == piece) state_[i] = kStay;
+        if (keeper < n) flood(keeper);
+    }
+    for (uint32_t seed = 0; seed < n; ++seed) {
+        if (!open(seed)) continue;
+        flood(seed);
+        cut += static_cast<int>(queue_.size());
+        if (queue_.size() < kLeastPiece || !f.rigid.create(p, queue_.data(), queue_.size(), piece))
+            for (const uint32_t i : queue_) letGo(f, i);
+    }
+    if (piece) f.rigid.intact(piece);
+    return cut;
+}
+
+void Hold::prepare(const HoldFrame& f) {
+    const size_t n = static_cast<size_t>(f.particles.count);
+    state_.resizeRaw(n), against_.resizeRaw(n);
     if (f.toldApart) anchor_.resizeRaw(n);
-    queue_.reserve(2 * static_cast<size_t>(p.capacity)); // now, so that looking later allocates nothing
+    queue_.reserve(2 * static_cast<size_t>(f.particles.capacity)); // now, so that looking later allocates nothing
     colliderBounds_.resizeRaw(static_cast<size_t>(f.colliderCount));
     for (int c = 0; c < f.colliderCount; ++c)
         if (f.colliders[c].alive) colliderBounds_[static_cast<size_t>(c)] = f.colliders[c].bounds();
+}
+
+HoldResult Hold::relabel(const HoldFrame& f) {
+    prepare(f);
+    HoldResult result;
+    Particles& p = f.particles;
+    std::fill(state_.begin(), state_.end(), uint8_t{kStay});
+    reach(f);
+    for (size_t i = 0; i < static_cast<size_t>(p.count); ++i)
+        if (state_[i] == kReached && !p.anchor[i]) p.velocity[i].setXyz({});
+    result.cutLoose = separate(f, 0);
+    const size_t pieces = f.rigid.pieces().size();
+    for (size_t s = 0; s < pieces; ++s)
+        if (f.rigid.pieces()[s].alive && f.rigid.pieces()[s].lostRows)
+            result.cutLoose += separate(f, static_cast<uint16_t>(s + 1));
+    return result;
+}
+
+HoldResult Hold::update(const HoldFrame& f) {
+    Particles& p = f.particles;
+    const size_t n = static_cast<size_t>(p.count);
+    prepare(f);
     blocks_.assign(static_cast<size_t>(Tasks::blockCount(p.count, kRowBlock)), {});
     f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int block, int) {
         blocks_[static_cast<size_t>(block)] = decide(f, begin, end);
@@ -236,20 +325,21 @@ HoldResult Hold::update(const HoldFrame& f) {
         if (state_[i] == kRelease) {
             letGo(f, i), queue_.push(static_cast<uint32_t>(i));
         } else if (state_[i] == kSet) {
-            p.flags[i] |= kFixed;
-            if (f.toldApart)
-                p.anchor[i] = anchor_[i]; // what it loses of its velocity goes there with the next step
-            else
-                p.velocity[i].setXyz({});
             p.velocityChange[i] = {};
+            if (against_[i]) {
+                p.flags[i] |= kFixed | kRigid;
+                f.rigid.join(p, static_cast<uint32_t>(i), against_[i]);
+            } else {
+                p.flags[i] |= kFixed;
+                if (f.toldApart)
+                    p.anchor[i] = anchor_[i]; // what it loses of its velocity goes there with the next step
+                else
+                    p.velocity[i].setXyz({});
+            }
         }
     }
     if (queue_.size() > 0) pressurize(f);
-
-    if (!f.relabel) return result;
-    reach(f);
-    for (size_t i = 0; i < n; ++i)
-        if ((p.flags[i] & kFixed) && state_[i] != kReached) letGo(f, i), ++result.cutLoose;
+    if (f.relabel) result.cutLoose = relabel(f).cutLoose;
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include "base/tasks.h"
 #include "base/types.h"
 #include "geometry/colliders.h"
+#include "motion/rigid.h"
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
 #include "particles/particles.h"
@@ -34,6 +35,7 @@ struct HoldFrame {
     const Collider* colliders;
     int colliderCount;
     Tasks& tasks;
+    Rigid& rigid;
     float dt;               // s, of the step
     Vec3 gravity;           // m/s^2
     bool relabel;           // look for pieces that lost their hold
@@ -47,29 +49,36 @@ struct HoldResult {
 
 // Decides what is held: solid wax that hangs together with a collider stands still exactly, everything else moves.
 //  - releases fixed particles whose liquid fraction rose above the material's releaseFraction,
-//  - sets slow movers below setFraction that touch a collider or something held,
-//  - when relabel is set, cuts loose fixed pieces that no path of touching fixed particles joins to a collider: they go
-//  on as
-//    lumps of the material's solid viscosity until they land and set again.
+//  - sets movers below setFraction that touch a collider or something fixed and are slow against it: they are held, or
+//    join the rigid piece that they touch,
+//  - when relabel is set, makes rigid pieces of what no path of touching fixed particles joins to a collider, and of
+//    the parts of a piece that no longer hang together. A few particles go on as a lump of the material's solid
+//    viscosity instead, until they set again.
 // Works on flags only; the rows take their new places at the next sort.
 class Hold {
 public:
     explicit Hold(Allocator& allocator)
-        : state_(allocator), anchor_(allocator), queue_(allocator), colliderBounds_(allocator), blocks_(allocator) {}
+        : state_(allocator), anchor_(allocator), queue_(allocator), against_(allocator), colliderBounds_(allocator),
+          blocks_(allocator) {}
     HoldResult update(const HoldFrame& f);
+    // The last of these alone: for a body that is new.
+    HoldResult relabel(const HoldFrame& f);
 
 private:
     enum : uint8_t { kStay, kRelease, kSet, kReached };
     bool touchesToldApart(const HoldFrame& f, int row, const WallFinder& walls);
+    void prepare(const HoldFrame& f);
     HoldResult decide(const HoldFrame& f, int begin, int end);
     void reach(const HoldFrame& f);
     void letGo(const HoldFrame& f, size_t row) const;
     void pressurize(const HoldFrame& f);
+    int separate(const HoldFrame& f, uint16_t piece);
     void gather(const HoldFrame& f, int begin, int end, WallFinder& walls) const;
 
     Array<uint8_t> state_;
     Array<uint16_t> anchor_; // per row that sets: what it hangs on then
     Array<uint32_t> queue_;
+    Array<uint16_t> against_; // per row that sets: the piece that it joins, or 0
     Array<Box> colliderBounds_;
     Array<HoldResult> blocks_;
 };

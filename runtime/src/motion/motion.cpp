@@ -4,6 +4,7 @@
 
 #include "motion/numbers.h"
 #include "motion/pairs.h"
+#include "motion/rigid_liquid.h"
 #include "motion/walls.h"
 
 #include <algorithm>
@@ -64,14 +65,7 @@ void wallFraction(const Contact* c, int n, float h, float& fraction, Vec3& gradi
 Vec4 heldSurface(const Vec4& fixed, float h) {
     const float filled = fixed.w, steep = length(fixed.xyz()) * h;
     if (!(filled > 1e-3f) || !(steep > 0.05f)) return {0, 0, 0, INFINITY};
-    const float* table = wallTable().fraction;
-    int low = 0, high = WallTable::kSize; // table[low] >= filled >= table[high]
-    while (high - low > 1) {
-        const int middle = (low + high) / 2;
-        (table[middle] >= filled ? low : high) = middle;
-    }
-    const float between = table[low] > table[high] ? (table[low] - filled) / (table[low] - table[high]) : 0.0f;
-    const float q = -1 + 2 * (static_cast<float>(low) + std::clamp(between, 0.0f, 1.0f)) / WallTable::kSize;
+    const float q = wallDistance(filled);
     const Vec3 n = (-h / steep) * fixed.xyz();
     return {n.x, n.y, n.z, q * h};
 }
@@ -93,6 +87,7 @@ Motion::Motion(Allocator& a)
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
     Particles& p = f.particles;
+    if (f.rigid) f.rigid->begin(f);
     bonded_ = f.bonds && f.bonds->any();
     if (p.moverCount == 0) return;
     if (bonded_) f.bonds->lay(f.bondFrame());
@@ -140,7 +135,7 @@ void Motion::begin(const MotionFrame& f) {
             const bool coheres = real && !p.bondSlot[i];
             trait_[i] = {-1, coheres ? f.materials[p.material[i]].def.cohesion * (0.1f * kGravity) : 0.0f,
                          p.velocity[i].w, p.pressure[i]};
-            if (!heldMoves_) p.velocity[i].setXyz({});
+            if (!heldMoves_ && !p.piece[i]) p.velocity[i].setXyz({});
             point_[i] = {x.x, x.y, x.z, 0};
             direction_[i] = {};
             target_[i] = {x.x, x.y, x.z, -p.position[i].w};
@@ -278,8 +273,9 @@ void Motion::begin(const MotionFrame& f) {
     if (landing > 0) land(f);
 }
 
-void Motion::holdAtWalls(size_t i, Vec4& velocity, float h, float dt) {
-    const float spacing = h / kSupport;
+void Motion::holdAtWalls(const MotionFrame& f, size_t i) {
+    Vec4& velocity = f.particles.velocity[i];
+    const float dt = f.dt, spacing = f.particles.position[i].w / kSupport;
     Vec3 v = velocity.xyz();
     for (size_t c = i * kContacts, end = c + contactCount_[i]; c < end; ++c) {
         const Vec4 k = contact_[c];
@@ -297,9 +293,14 @@ void Motion::holdAtWalls(size_t i, Vec4& velocity, float h, float dt) {
     if (held.w < INFINITY) {
         const float need = std::min(0.0f, (kHeldStandoff * spacing - held.w) / dt);
         float into = dot(held.xyz(), v);
-        if (heldMoves_) into -= dot(held.xyz(), heldVelocity_[i].xyz());
+        RigidLiquid::Near* piece = f.coupling ? f.coupling->near(i) : nullptr;
+        if (piece)
+            into -= dot(held.xyz(), f.coupling->velocityAt(f, *piece));
+        else if (heldMoves_)
+            into -= dot(held.xyz(), heldVelocity_[i].xyz());
         if (into < need) {
             v += (need - into) * held.xyz();
+            if (piece) piece->impulse -= (velocity.w * piece->share * (need - into)) * held.xyz();
             if (reporting_) heldKick_[i].setXyz(heldKick_[i].xyz() + (need - into) * held.xyz());
         }
     }

@@ -13,6 +13,9 @@
 
 namespace thaw {
 
+class Rigid;
+class RigidLiquid;
+
 struct MotionFrame {
     Particles& particles;
     Neighbors& neighbors;    // built and weighed at the positions of now
@@ -27,8 +30,10 @@ struct MotionFrame {
     Vec3 gravity;
     float spacing; // m, of level 0
     int pressureIterations, viscosityIterations;
-    float heldSpeed = 0;    // m/s, of the fastest fixed particle: what hangs on a collider moves with it
-    Bonds* bonds = nullptr; // null, or without any: nothing is elastic
+    float heldSpeed = 0;             // m/s, of the fastest fixed particle: what hangs on a collider moves with it
+    Bonds* bonds = nullptr;          // null, or without any: nothing is elastic
+    Rigid* rigid = nullptr;          // pieces that move as one, when there are any
+    RigidLiquid* coupling = nullptr; // with rigid
 
     BondFrame bondFrame() const {
         return {particles, neighbors, volume, materials, colliders, colliderCount, tasks, dt, gravity};
@@ -76,7 +81,7 @@ public:
 private:
     bool touches(size_t i) const { return contactCount_[i] || held_[i].w < INFINITY; }
     void land(const MotionFrame& f);
-    void holdAtWalls(size_t i, Vec4& velocity, float h, float dt);
+    void holdAtWalls(const MotionFrame& f, size_t i);
     void meetMovingWalls(const MotionFrame& f);
     template <class F> void forHeldPairs(const MotionFrame& f, F&& change);
     void reportHeldDrag(const MotionFrame& f);
@@ -86,6 +91,7 @@ private:
         if (reporting_) kick_[contact].setXyz(kick_[contact].xyz() + change);
     }
     void returnMomentum(const MotionFrame& f, bool every);
+    void returnShared(const MotionFrame& f);
     void returnSpin(const MotionFrame& f);
     void addRigidMotion(const MotionFrame& f, const uint32_t* rows, size_t count, const double (&linear)[3],
                         const double (&angular)[3]);
@@ -144,7 +150,7 @@ private:
     Array<Vec4> target_;
     // Whether a mover's piece hangs on a wall or on something held: kLeaning when it does itself, the rest is
     // searched; kTouching instead where whole pieces are wanted.
-    enum Piece : uint8_t { kUnknown, kLeaning, kAfloat, kTouching };
+    enum Piece : uint8_t { kUnknown, kLeaning, kAfloat, kTouching, kShared };
     Array<Piece> piece_;       // per mover
     Array<uint32_t> queue_;    // rows of the floating pieces of this sub-step, one after another
     Array<uint32_t> pieceEnd_; // per floating piece, its end in the above

@@ -3,6 +3,7 @@
 #include "motion/motion.h"
 #include "motion/numbers.h"
 #include "motion/pairs.h"
+#include "motion/rigid.h"
 #include "motion/walls.h"
 
 #include <algorithm>
@@ -155,7 +156,13 @@ void sweep(const Obstacles& around, const Tally& tally, float spacing, float mas
 
 void Motion::move(const MotionFrame& f) {
     Particles& p = f.particles;
+    if (f.rigid) f.rigid->move(f);
     if (p.moverCount == 0) return;
+    if (f.rigid)
+        for (int r = p.moverCount; r < p.count; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            if (p.piece[i]) target_[i].setXyz(p.position[i].xyz());
+        }
 
     const Box nothing; // springs keep solids apart
     Box held;

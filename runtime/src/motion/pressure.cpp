@@ -3,6 +3,7 @@
 #include "motion/motion.h"
 #include "motion/numbers.h"
 #include "motion/pairs.h"
+#include "motion/rigid_liquid.h"
 
 #include <algorithm>
 
@@ -45,9 +46,10 @@ void Motion::pressure(const MotionFrame& f) {
                 if (gripped(i))
                     p.velocity[i].setXyz(grip_[i].xyz());
                 else if (touches(i))
-                    holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
+                    holdAtWalls(f, i);
             }
         });
+        if (f.coupling && f.coupling->any()) f.coupling->press(f, point_.data()), f.coupling->settle(f);
     }
     if (!reporting_) return;
     reportHeldPush(f);

@@ -4,6 +4,7 @@
 #include "motion/motion.h"
 #include "motion/numbers.h"
 #include "motion/pairs.h"
+#include "motion/rigid_liquid.h"
 #include "motion/walls.h"
 
 #include <algorithm>
@@ -109,6 +110,8 @@ void Motion::viscosity(const MotionFrame& f) {
             diagonal_[i] = residual_[i] = {};
         }
     });
+    RigidLiquid* const pieces = f.coupling && f.coupling->any() ? f.coupling : nullptr;
+    if (pieces) pieces->prime(f);
     const double tolerance = static_cast<double>(bonded_ ? kElasticTolerance : kTolerance);
     const double allowed = tolerance * tolerance * total(&BlockSums::a);
 
@@ -154,6 +157,10 @@ void Motion::viscosity(const MotionFrame& f) {
             }
         });
         rz = total(&BlockSums::a), rr = total(&BlockSums::b);
+        if (pieces) {
+            const Dots dots = pieces->start(f, direction_.data());
+            rz += dots.a, rr += dots.b;
+        }
 
         // Forces as in the last step are a good start, but velocities that the iterations do not reach go on
         // accelerating with it: at 1e5 Pa s a free cylinder gained a third of its speed every step. Where the
@@ -167,12 +174,14 @@ void Motion::viscosity(const MotionFrame& f) {
                     direction_[i] = {way.x, way.y, way.z, 0};
                 }
             });
+            if (pieces) pieces->aimBack(f, direction_.data());
             forMovers([&](int begin, int end, int, BlockSums& sums) {
                 applyViscosity(f, direction_.data(), begin, end, true);
                 sums.a = innerProduct(direction_.data(), image_.data(), 8 * begin, 8 * end);
                 sums.b = innerProduct(direction_.data(), residual_.data(), 8 * begin, 8 * end);
             });
-            const double curvature = total(&BlockSums::a), slope = total(&BlockSums::b);
+            const double curvature = total(&BlockSums::a) + (pieces ? pieces->curvature(f, direction_.data()) : 0),
+                         slope = total(&BlockSums::b) + (pieces ? pieces->slope() : 0);
             const double back = slope > 0.5 * curvature && curvature > 0 ? slope / curvature : 0;
             forMovers([&](int begin, int end, int, BlockSums& sums) {
                 const Dots dots = advance(static_cast<float>(back), direction_.data(), image_.data(), diagonal_.data(),
@@ -181,6 +190,11 @@ void Motion::viscosity(const MotionFrame& f) {
                 sums.a = dots.a, sums.b = dots.b;
             });
             rz = total(&BlockSums::a), rr = total(&BlockSums::b);
+            if (pieces) {
+                const Dots dots = pieces->advance(back);
+                rz += dots.a, rr += dots.b;
+                pieces->turn(f, 0, direction_.data());
+            }
         }
 
         for (int n = 0; n < f.viscosityIterations && rr > allowed && rz > 0; ++n, ++iteration) {
@@ -188,21 +202,26 @@ void Motion::viscosity(const MotionFrame& f) {
                 applyViscosity(f, direction_.data(), begin, end, true);
                 sums.a = innerProduct(direction_.data(), image_.data(), 8 * begin, 8 * end);
             });
-            const double curvature = total(&BlockSums::a);
+            const double curvature = total(&BlockSums::a) + (pieces ? pieces->curvature(f, direction_.data()) : 0);
             if (!(curvature > 0)) break;
             forMovers([&](int begin, int end, int, BlockSums& sums) {
                 const Dots dots = advance(static_cast<float>(rz / curvature), direction_.data(), image_.data(),
                                           diagonal_.data(), p.velocity.data(), residual_.data(), 8 * begin, 8 * end);
                 sums.a = dots.a, sums.b = dots.b;
             });
-            const double next = total(&BlockSums::a);
+            double next = total(&BlockSums::a);
             rr = total(&BlockSums::b);
+            if (pieces) {
+                const Dots dots = pieces->advance(rz / curvature);
+                next += dots.a, rr += dots.b;
+            }
             const float keep = static_cast<float>(next / rz);
             rz = next;
             if (!(rr > allowed)) continue;
             forMovers([&](int begin, int end, int, BlockSums&) {
                 turn(keep, residual_.data(), diagonal_.data(), direction_.data(), 8 * begin, 8 * end);
             });
+            if (pieces) pieces->turn(f, static_cast<double>(keep), direction_.data());
         }
     }
     stats_.viscosityIterations = iteration;
@@ -212,7 +231,9 @@ void Motion::viscosity(const MotionFrame& f) {
     const bool sound = std::isfinite(rr) && std::isfinite(rz);
 
     if (sound && bonded_ && reporting_) findResidual(), reportGrip(f);
+    if (sound && pieces) returnShared(f);
     if (sound) returnMomentum(f, wallsMove_ || reporting_ || heldMoves_);
+    if (pieces) pieces->finish(f, sound);
     if (sound) reportHeldDrag(f);
     if (sound && reporting_)
         forMovers([&](int begin, int, int last, BlockSums&) {
@@ -233,9 +254,10 @@ void Motion::viscosity(const MotionFrame& f) {
             if (!sound) p.velocity[i] = before_[i];
             const Vec3 change = p.velocity[i].xyz() - before_[i].xyz();
             p.velocityChange[i] = {change.x, change.y, change.z, soften * p.velocityChange[i].w};
-            if (touches(i) && !gripped(i)) holdAtWalls(i, p.velocity[i], p.position[i].w, f.dt);
+            if (touches(i) && !gripped(i)) holdAtWalls(f, i);
         }
     });
+    if (pieces) pieces->settle(f);
 }
 
 } // namespace thaw

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/kernel.h"
+
+#include <algorithm>
+
 namespace thaw {
 
 // No centre of a particle gets nearer to a wall than this, in spacings.
@@ -10,5 +14,17 @@ inline constexpr float kWallStandoff = 0.3f;
 inline constexpr float kHeldStandoff = 0.3f;
 // Nor moves a particle that is nearer already out faster than this many spacings in a step.
 inline constexpr float kWallRecovery = 0.2f;
+
+// The signed distance, in supports, at which a flat solid fills this share of the support: the table inverted.
+inline float wallDistance(float filled) {
+    const float* table = wallTable().fraction;
+    int low = 0, high = WallTable::kSize; // table[low] >= filled >= table[high]
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+        (table[middle] >= filled ? low : high) = middle;
+    }
+    const float between = table[low] > table[high] ? (table[low] - filled) / (table[low] - table[high]) : 0.0f;
+    return -1 + 2 * (static_cast<float>(low) + std::clamp(between, 0.0f, 1.0f)) / WallTable::kSize;
+}
 
 } // namespace thaw

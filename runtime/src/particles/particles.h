@@ -13,6 +13,7 @@ enum ParticleFlag : uint8_t {
     kFixed = 1 << 0,   // solid and held
     kSurface = 1 << 1, // exposed to air
     kAsleep = 1 << 2,  // fixed for as long as nothing pulls at its bonds
+    kRigid = 1 << 3,   // fixed, but to a rigid piece: moves with it
 };
 
 // Every per-particle quantity that lives from step to step: one list, used by sort, hash and removal alike.
@@ -33,6 +34,7 @@ enum ParticleFlag : uint8_t {
     X(uint32_t, id) /* stable, never reused */                                                                         \
     X(uint32_t, bondSlot) /* where its bonds are (Bonds), 0 none */                                                    \
     X(uint16_t, body)                                                                                                  \
+    X(uint16_t, piece)  /* rigid piece that a fixed row is part of, its slot + 1; 0: held, or a mover */               \
     X(uint16_t, anchor) /* fixed: 1 + the collider that it hangs on, of those that are told apart; else 0 */           \
     X(uint8_t, material)                                                                                               \
     X(uint8_t, level) /* mass 2^level of the finest */                                                                 \
@@ -80,6 +82,11 @@ struct Particles {
         }
     }
     bool fixed(int i) const { return flags[static_cast<size_t>(i)] & kFixed; }
+    // Fixed, and neither part of a piece on its way nor carried along.
+    bool still(int i) const {
+        const Vec4& v = velocity[static_cast<size_t>(i)];
+        return fixed(i) && v.x == 0 && v.y == 0 && v.z == 0;
+    }
 };
 
 } // namespace thaw

@@ -34,11 +34,12 @@ thawPlan makePlan(const Needs& n, const thawWork& work) {
          n.awayFromAmbient ? thawReason_nothingExposed : thawReason_equilibrium);
     const bool heated =
         plan.enabled[thawStage_radiation] || plan.enabled[thawStage_conduction] || plan.enabled[thawStage_loss];
-    const bool moved = n.listsStale || n.holdStale || n.collidersMove || n.movers > 0;
+    const bool moved = n.listsStale || n.holdStale || n.collidersMove || n.movers + n.rigid > 0;
     set(thawStage_phase, any && (heated || moved), any ? thawReason_nothingChanged : thawReason_noParticles);
 
-    for (thawStage s : {thawStage_forces, thawStage_viscosity, thawStage_pressure, thawStage_collision})
+    for (thawStage s : {thawStage_forces, thawStage_viscosity, thawStage_pressure})
         set(s, n.movers > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
+    set(thawStage_collision, n.movers + n.rigid > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
     set(thawStage_stats, any && (heated || moved), any ? thawReason_nothingChanged : thawReason_noParticles);
     return plan;
 }

@@ -11,6 +11,7 @@ namespace thaw {
 // What the scene is like before a step: all that the plan depends on besides the work units.
 struct Needs {
     int particles = 0, movers = 0, exposed = 0;
+    int rigid = 0;              // particles of pieces that are awake
     bool listsStale = true;     // something moved, changed hold, came or went since the lists were built
     bool holdStale = false;     // pieces may have lost what held them
     bool collidersMove = false; // in this step

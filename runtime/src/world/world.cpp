@@ -43,8 +43,9 @@ Transform toTransform(thawVec3 p, thawQuat q, float scale) {
 
 World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
-      motion_(allocator), heat_(allocator), hold_(allocator), anchors_(allocator), bonds_(allocator),
-      surface_(allocator), volume_(allocator), invDensity_(allocator), blockTotals_(allocator) {
+      motion_(allocator), rigid_(allocator), rigidLiquid_(allocator), heat_(allocator), hold_(allocator),
+      anchors_(allocator), bonds_(allocator), surface_(allocator), volume_(allocator), invDensity_(allocator),
+      blockTotals_(allocator) {
     particles.allocate(d.maxParticles);
     const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
     volume_.resize(n), invDensity_.resize(n);
@@ -78,6 +79,12 @@ uint32_t World::step(float dt, const thawBudget& budget) {
         auto t = timed(thawStage_neighbors);
         refreshNeighbors();
     }
+    if (bodiesNew_) {
+        // Before it is held, or falls: what a new body has of velocity is that of the part that is free.
+        auto t = timed(thawStage_phase);
+        if (hold_.relabel(holdFrame(dt, true)).cutLoose > 0) refreshNeighbors();
+        bodiesNew_ = false;
+    }
     if (on(thawStage_exposure)) {
         auto t = timed(thawStage_exposure);
         refreshExposure();
@@ -108,7 +115,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     if (now.heatDue) heatTimePending_ = 0;
 
     MotionStats motionStats{};
-    if (on(thawStage_forces)) {
+    if (on(thawStage_collision) || rigid_.moving() || (rigid_.any() && collidersMove())) {
         const float h = dt / static_cast<float>(subSteps);
         for (int s = 0; s < subSteps; ++s) {
             if (s > 0) {
@@ -136,6 +143,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
             }
             if (toldApart_) {
                 motion_.addImpulses(colliders.data(), static_cast<int>(colliders.size()));
+                rigid_.addImpulses(colliders.data());
                 arrive();
             }
             const MotionStats& m = motion_.stats();
@@ -198,7 +206,8 @@ Needs World::needs() const {
     Needs n;
     n.particles = particles.count;
     // What was released or set since the last sort counts already.
-    n.movers = counters_.moving;
+    n.movers = counters_.moving - rigidRows_;
+    n.rigid = rigidRows_;
     n.exposed = exposed_;
     n.listsStale = listsStale_;
     n.holdStale = holdStale_;
@@ -340,7 +349,9 @@ MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work) {
             work.pressureIterations,
             work.viscosityIterations,
             heldSpeed_,
-            &bonds_};
+            &bonds_,
+            rigid_.any() ? &rigid_ : nullptr,
+            rigid_.any() ? &rigidLiquid_ : nullptr};
 }
 
 BondFrame World::bondFrame(float dt) {
@@ -377,21 +388,26 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
             work.rayRefresh};
 }
 
+HoldFrame World::holdFrame(float dt, bool relabel) {
+    return {particles,
+            neighbors_,
+            materials.data(),
+            colliders.data(),
+            static_cast<int>(colliders.size()),
+            tasks,
+            rigid_,
+            dt,
+            {def.gravity.x, def.gravity.y, def.gravity.z},
+            relabel,
+            toldApart_};
+}
+
 void World::holdAndRelease(float dt) {
     ++stepsSinceRelabel_;
     const bool moved = toldApart_ && collidersMove();
     if (moved) holdStale_ = true;
     const bool relabel = holdStale_ && stepsSinceRelabel_ >= kRelabelInterval;
-    const HoldResult r = hold_.update({particles,
-                                       neighbors_,
-                                       materials.data(),
-                                       colliders.data(),
-                                       static_cast<int>(colliders.size()),
-                                       tasks,
-                                       dt,
-                                       {def.gravity.x, def.gravity.y, def.gravity.z},
-                                       relabel,
-                                       toldApart_});
+    const HoldResult r = hold_.update(holdFrame(dt, relabel));
     if (relabel) holdStale_ = false, stepsSinceRelabel_ = 0;
     if (r.released > 0) holdStale_ = true;
     if (r.changed()) listsStale_ = true;
@@ -435,7 +451,12 @@ void World::measure() {
     }
     if (particles.count == 0) minTemperature_ = maxTemperature_ = def.ambientTemperature;
     counters_.moving = 0;
-    for (int i = 0; i < particles.count; ++i) counters_.moving += !particles.fixed(i);
+    rigidRows_ = 0;
+    for (int i = 0; i < particles.count; ++i) {
+        const uint16_t piece = particles.piece[static_cast<size_t>(i)];
+        counters_.moving += !particles.fixed(i), rigidRows_ += piece && !rigid_.pieceOf(piece).asleep;
+    }
+    counters_.moving += rigidRows_;
     counters_.fixed = particles.count - counters_.moving;
 }
 
@@ -458,6 +479,8 @@ void World::removeParticles(bool (*remove)(const Particles&, int, uint32_t), uin
     particles.count = kept;
     particles.moverCount = std::min(particles.moverCount, kept);
     particles.pad();
+    rigid_.wakeAll();
+    rigid_.gather(particles);
     listsStale_ = holdStale_ = true;
     stepsSinceRelabel_ = kRelabelInterval;
 }
@@ -503,6 +526,8 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     const double share = 1 / static_cast<double>(points.size());
     const Vec3 center{static_cast<float>(share * sum[0]), static_cast<float>(share * sum[1]),
                       static_cast<float>(share * sum[2])};
+    std::vector<uint32_t> loose; // rows of the piece that a body makes which stands free
+    if (!d.anchored) loose.reserve(points.size()), rigid_.reserve();
     for (size_t point = 0; point < points.size(); ++point) {
         const Vec3 x = points[point];
         const uint8_t material = materialOf[point];
@@ -513,14 +538,14 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
         // What is liquid from the start carries the pressure of its depth: without it, it falls into itself for a third
         // of a second (in a tank by 4 % at the worst, by 10 % with half of that pressure).
         const bool liquid = phi >= m.def.releaseFraction;
-        const bool soft = !liquid && m.soft(), free = liquid || (soft && !still);
+        const bool soft = !liquid && m.soft(), free = liquid || (soft && !(still && d.anchored));
         anySolid |= soft;
         const size_t k = static_cast<size_t>(particles.count++);
 #define X(type, name) particles.name[k] = type{};
         THAW_PARTICLE_FIELDS(X)
 #undef X
         particles.position[k] = {x.x, x.y, x.z, kSupport * def.particleSpacing};
-        const Vec3 v = free ? velocity + cross(spin, x - center) : Vec3{};
+        const Vec3 v = velocity + cross(spin, x - center); // of what is held, it is taken away when that is known
         particles.velocity[k] = {v.x, v.y, v.z, mass};
         particles.pressure[k] = liquid ? meanDensity * (dot(x, gravity) - top) : 0.0f;
         particles.velocityChange[k] = {
@@ -533,10 +558,14 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
         particles.body[k] = static_cast<uint16_t>(slot);
         particles.material[k] = material;
         particles.flags[k] = free ? 0 : soft ? kFixed | kAsleep : kFixed;
+        if (!free && !soft && !d.anchored) loose.push_back(static_cast<uint32_t>(k));
         massAdded_ += mass;
         energyAdded_ += static_cast<double>(mass) * H;
     }
     particles.pad();
+    if (!loose.empty())
+        if (const uint16_t piece = rigid_.create(particles, loose.data(), loose.size(), 0)) rigid_.lost(piece);
+    bodiesNew_ = true;
     bodies[slot].take();
     anchorsFresh_ = toldApart_;
     index1 = static_cast<uint32_t>(slot) + 1;
@@ -615,6 +644,7 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
     index1 = static_cast<uint32_t>(slot) + 1;
     if (d.reportImpulse) toldApart_ = anchorsFresh_ = true;
     ++colliderVersion_;
+    rigid_.wakeAll();
     listsStale_ = holdStale_ = true;
     stepsSinceRelabel_ = kRelabelInterval;
     return thawResult_ok;
@@ -627,6 +657,7 @@ void World::removeCollider(uint32_t index) {
         if (particles.anchor[static_cast<size_t>(i)] == index + 1) particles.anchor[static_cast<size_t>(i)] = 0;
     colliderSlots[index].alive = false;
     ++colliderVersion_;
+    rigid_.wakeAll();
     listsStale_ = holdStale_ = true;
     stepsSinceRelabel_ = kRelabelInterval;
 }
@@ -684,7 +715,7 @@ uint64_t World::stateHash() const {
             bytes(v, sizeof v);
         }
     }
-    return bonds_.hash(h);
+    return rigid_.hash(bonds_.hash(h));
 }
 
 thawLedger World::ledger() const {
@@ -707,12 +738,33 @@ thawCounters World::counters() const {
     for (const Slot& b : bodies) c.bodies += b.alive;
     for (const Collider& x : colliders) c.colliders += x.alive;
     for (const HeatSource& s : sources) c.heatSources += s.alive;
+    c.pieces = pieces(nullptr, 0);
     c.neighborsMax = neighbors_.maxNeighbors, c.neighborsMean = neighbors_.meanNeighbors;
     c.meltedFraction = massNow_ > 0 ? static_cast<float>(liquidMass_ / massNow_) : 0;
     c.minTemperature = minTemperature_, c.maxTemperature = maxTemperature_;
     c.steps = steps_, c.time = time_;
     c.memoryBytes = allocator.bytes();
     return c;
+}
+
+int World::pieces(thawPieceState* out, int capacity) const {
+    int n = 0;
+    for (const RigidPiece& b : rigid_.pieces()) {
+        if (!b.alive) continue;
+        const auto host = [](Double3 v) {
+            const Vec3 f = narrow(v);
+            return thawVec3{f.x, f.y, f.z};
+        };
+        if (n++ < capacity)
+            out[n - 1] = {b.id,
+                          static_cast<int32_t>(b.rows),
+                          static_cast<float>(b.mass),
+                          host(b.center),
+                          host(b.velocity),
+                          host(b.spin),
+                          b.asleep};
+    }
+    return n;
 }
 
 } // namespace thaw

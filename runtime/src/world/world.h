@@ -10,6 +10,7 @@
 #include "motion/bonds.h"
 #include "motion/hold.h"
 #include "motion/motion.h"
+#include "motion/rigid_liquid.h"
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
 #include "particles/particles.h"
@@ -57,6 +58,8 @@ public:
     uint64_t stateHash() const;
     thawLedger ledger() const;
     thawCounters counters() const;
+    int pieces(thawPieceState* out, int capacity) const;
+    void wakePieces() { rigid_.wakeAll(); }
 
     thawWorldDef def; // with hooks and the settings that may change
     Allocator allocator;
@@ -88,6 +91,7 @@ private:
     void fillMassArrays();
     MotionFrame motionFrame(float dt, int subSteps, const thawWork& work);
     HeatFrame heatFrame(double dt, const thawWork& work);
+    HoldFrame holdFrame(float dt, bool relabel);
     void holdAndRelease(float dt);
     bool collidersMove() const;
     void startColliders(float dt, int subStep, int subSteps);
@@ -101,6 +105,8 @@ private:
 
     Neighbors neighbors_;
     Motion motion_;
+    Rigid rigid_;
+    RigidLiquid rigidLiquid_;
     Heat heat_;
     Hold hold_;
     Anchors anchors_;
@@ -115,6 +121,7 @@ private:
     bool anchorsFresh_ = false; // some came to be since the anchors were found
     float heldSpeed_ = 0;       // m/s, of the fastest held particle in this sub-step
     bool holdStale_ = false;    // some fixed particle went: pieces may have lost their hold
+    bool bodiesNew_ = false;    // nobody has looked yet what of them is held
     uint32_t stepsSinceRelabel_ = 0;
     uint64_t colliderVersion_ = 1;
     uint32_t nextId_ = 1;
@@ -129,6 +136,7 @@ private:
     double massNow_ = 0, energyNow_ = 0, liquidMass_ = 0;
     float minTemperature_ = 0, maxTemperature_ = 0;
     int badParticles_ = 0;
+    int rigidRows_ = 0; // of pieces that are awake
     thawCounters counters_{};
 };
 

@@ -45,5 +45,6 @@ CaseList colliderCases();
 CaseList materialCases();
 CaseList impactCases();
 CaseList softCases();
+CaseList rigidCases();
 
 } // namespace thaw::player

@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "motion/rigid_liquid.h"
+
+#include "base/kernel.h"
+#include "motion/rigid_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thaw {
+namespace {
+
+void hand(RigidPiece& b, Double3 impulse, Double3 at) {
+    b.linear += impulse, b.angular += cross(at - b.center, impulse);
+}
+
+} // namespace
+
+RigidLiquid::RigidLiquid(Allocator& a) : pairs_(a), near_(a), nearOf_(a), weight_(a), unknowns_(a), group_(a) {}
+
+void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback, Vec4* wall) {
+    const Particles& p = f.particles;
+    rigid_ = f.rigid;
+    pairs_.clear(), near_.clear(), unknowns_.clear();
+    Array<RigidPiece>& pieces = rigid_->pieces();
+    const uint32_t movers = static_cast<uint32_t>(p.moverCount);
+    const float weight = 10 * latticeSum() * f.dt;
+    for (uint32_t slot = 0; slot < pieces.size(); ++slot) {
+        RigidPiece& b = pieces[slot];
+        if (!b.alive) continue;
+        const size_t firstPair = pairs_.size();
+        const uint32_t* rows = rigid_->rowsOf(b);
+        for (uint32_t k = 0; k < b.rows; ++k) {
+            const uint32_t j = rows[k], g = j >> 3, lane = j & 7;
+            const Vec4 xj = p.position[j], tj = trait[j];
+            const size_t start = f.neighbors.first[g] + lane;
+            for (uint32_t e = 0; e < f.neighbors.width[g]; ++e) {
+                const size_t at = start + 8 * static_cast<size_t>(e);
+                const uint32_t i = f.neighbors.entries[at] >> 4;
+                if (i >= movers) break; // ascending
+                // The same numbers as pairForces, from the row's side: V_i g_ij = V_j g_ji.
+                const Vec4 xi = p.position[i], ti = trait[i];
+                const Vec3 x = xi.xyz() - xj.xyz();
+                const float gradient = f.volume[j] * f.neighbors.gradient[at];
+                const float r2 = dot(x, x), h = 0.5f * (xi.w + xj.w);
+                const float push = -f.dt * gradient;
+                pairs_.push({i, j, slot, x, -weight * ti.x * gradient / (0.01f * h * h + r2), push});
+                float impulse = push * (ti.w + tj.w);
+                const float r = std::sqrt(r2), d = h / kSupport;
+                if (d < r && r < h) {
+                    constexpr float kPeak = 4 / ((1 - 1 / kSupport) * (1 - 1 / kSupport));
+                    impulse -= f.dt * 0.5f * kPeak * (r - d) * (h - r) * ti.z * (ti.y + tj.y) / (h * h * r);
+                }
+                hand(b, -static_cast<double>(impulse) * wide(x), wide(xj.xyz()));
+            }
+        }
+        if (pairs_.size() == firstPair || b.asleep || b.grounded) continue;
+        Unknown u{};
+        u.slot = slot, u.firstPair = firstPair, u.endPair = pairs_.size();
+        unknowns_.push(u);
+    }
+    if (pairs_.empty()) return;
+
+    // What a mover lies against: mostly the piece of its nearest pair, and what is held beside it.
+    nearOf_.assign(movers, 0), weight_.resizeRaw(movers);
+    for (const Pair& q : pairs_) {
+        uint32_t& n = nearOf_[q.mover];
+        if (!n) {
+            near_.push({q.mover, static_cast<uint16_t>(q.slot + 1), 0, {}});
+            n = static_cast<uint32_t>(near_.size()), weight_[q.mover] = q.push;
+        } else if (q.push > weight_[q.mover]) {
+            near_[n - 1].piece = static_cast<uint16_t>(q.slot + 1), weight_[q.mover] = q.push;
+        }
+    }
+    const PairLists lists(f.neighbors);
+    for (Near& n : near_) {
+        float own = 0, all = 0;
+        const uint32_t g = n.mover >> 3;
+        const size_t start = lists.first[g] + (n.mover & 7);
+        for (uint32_t e = 0; e < lists.width[g]; ++e) {
+            const size_t at = start + 8 * static_cast<size_t>(e), j = lists.entries[at] >> 4;
+            if (j < movers || j >= static_cast<size_t>(p.count)) continue;
+            all -= lists.gradient[at];
+            if (p.piece[j] == n.piece) own -= lists.gradient[at];
+        }
+        n.share = all > 0 ? own / all : 0;
+    }
+    // Beside a free piece the whole share makes it oscillate and blow up within a second.
+    for (const Unknown& u : unknowns_)
+        for (size_t k = u.firstPair; k < u.endPair; ++k) {
+            Vec4& w = wall[pairs_[k].mover];
+            if (weight_[pairs_[k].mover] < 0 || !(w.w > 0)) continue;
+            w.w *= std::min(1.0f, kFeedbackBesidePiece / feedback);
+            weight_[pairs_[k].mover] = -1; // once
+        }
+}
+
+RigidLiquid::Unknown* RigidLiquid::unknownOf(uint16_t piece) {
+    for (Unknown& u : unknowns_)
+        if (u.slot + 1 == piece) return &u;
+    return nullptr;
+}
+
+Vec3 RigidLiquid::velocityAt(const MotionFrame& f, const Near& n) const {
+    const RigidPiece& b = rigid_->pieceOf(n.piece);
+    if (b.asleep) return {};
+    return n.share * narrow(b.velocityAt(wide(f.particles.position[n.mover].xyz())));
+}
+
+void RigidLiquid::factorise(const MotionFrame& f, Unknown& u) {
+    const RigidPiece& b = rigid_->pieces()[u.slot];
+    double(&a)[6][6] = u.factor;
+    for (auto& row : a)
+        for (double& v : row) v = 0;
+    a[0][0] = a[1][1] = a[2][2] = b.mass;
+    a[3][3] = b.inertia.xx, a[4][4] = b.inertia.yy, a[5][5] = b.inertia.zz;
+    a[4][3] = b.inertia.xy, a[5][3] = b.inertia.xz, a[5][4] = b.inertia.yz;
+    for (size_t k = u.firstPair; k < u.endPair; ++k) {
+        const Pair& q = pairs_[k];
+        const Double3 x = wide(q.x), t = cross(wide(f.particles.position[q.row].xyz()) - b.center, x);
+        const double g[6] = {x.x, x.y, x.z, t.x, t.y, t.z};
+        for (int r = 0; r < 6; ++r)
+            for (int c = 0; c <= r; ++c) a[r][c] += static_cast<double>(q.coefficient) * g[r] * g[c];
+    }
+    for (int r = 0; r < 6; ++r)
+        for (int c = 0; c <= r; ++c) {
+            double z = a[r][c];
+            for (int k = 0; k < c; ++k) z -= a[r][k] * a[c][k];
+            a[r][c] = r == c ? std::sqrt(z) : z / a[c][c];
+        }
+}
+
+RigidLiquid::Six RigidLiquid::precondition(const Unknown& u) {
+    const Six& r = u.residual;
+    double g[6] = {r.linear.x, r.linear.y, r.linear.z, r.angular.x, r.angular.y, r.angular.z};
+    for (int q = 0; q < 6; ++q) {
+        for (int k = 0; k < q; ++k) g[q] -= u.factor[q][k] * g[k];
+        g[q] /= u.factor[q][q];
+    }
+    for (int q = 5; q >= 0; --q) {
+        for (int k = q + 1; k < 6; ++k) g[q] -= u.factor[k][q] * g[k];
+        g[q] /= u.factor[q][q];
+    }
+    return {{g[0], g[1], g[2]}, {g[3], g[4], g[5]}};
+}
+
+// Of all pieces: r . (inverse r) and r . r, the angular part as a force at the rim.
+Dots RigidLiquid::measure() {
+    Dots sum;
+    for (Unknown& u : unknowns_) {
+        u.z = precondition(u);
+        const double radius = rigid_->pieces()[u.slot].radius;
+        sum.a += dot6(u.residual, u.z);
+        sum.b +=
+            dot(u.residual.linear, u.residual.linear) + dot(u.residual.angular, u.residual.angular) / (radius * radius);
+    }
+    return sum;
+}
+
+void RigidLiquid::spread(const MotionFrame& f, const Unknown& u, const Six& v, Vec4* rows) const {
+    const RigidPiece& b = rigid_->pieces()[u.slot];
+    const uint32_t* r = rigid_->rowsOf(b);
+    for (uint32_t k = 0; k < b.rows; ++k)
+        rows[r[k]].setXyz(narrow(v.linear + cross(v.angular, wide(f.particles.position[r[k]].xyz()) - b.center)));
+}
+
+// From what the last solve changed.
+void RigidLiquid::prime(const MotionFrame& f) {
+    for (Unknown& u : unknowns_) {
+        RigidPiece& b = rigid_->pieces()[u.slot];
+        u.before = {b.velocity, b.spin};
+        b.velocity += b.drag, b.spin += b.dragSpin;
+        spread(f, u, {b.velocity, b.spin}, f.particles.velocity.data());
+    }
+}
+
+// Residual and first direction; the movers' velocities are their start already.
+Dots RigidLiquid::start(const MotionFrame& f, Vec4* direction) {
+    const Vec4* velocity = f.particles.velocity.data();
+    for (Unknown& u : unknowns_) {
+        const RigidPiece& b = rigid_->pieces()[u.slot];
+        const Six value{b.velocity, b.spin};
+        factorise(f, u);
+        u.residual = massTimes(b, {u.before.linear - value.linear, u.before.angular - value.angular});
+        for (size_t k = u.firstPair; k < u.endPair; ++k) {
+            const Pair& q = pairs_[k];
+            const float along = dot(velocity[q.mover].xyz() - velocity[q.row].xyz(), q.x);
+            const Double3 impulse = static_cast<double>(q.coefficient * along) * wide(q.x);
+            u.residual.linear += impulse;
+            u.residual.angular += cross(wide(f.particles.position[q.row].xyz()) - b.center, impulse);
+        }
+    }
+    const Dots dots = measure();
+    for (Unknown& u : unknowns_) u.direction = u.z, spread(f, u, u.direction, direction);
+    return dots;
+}
+
+void RigidLiquid::aimBack(const MotionFrame& f, Vec4* direction) {
+    for (Unknown& u : unknowns_) {
+        const RigidPiece& b = rigid_->pieces()[u.slot];
+        u.direction = {b.startVelocity - b.velocity, b.startSpin - b.spin};
+        spread(f, u, u.direction, direction);
+    }
+}
+
+double RigidLiquid::slope() const {
+    double sum = 0;
+    for (const Unknown& u : unknowns_) sum += dot6(u.direction, u.residual);
+    return sum;
+}
+
+double RigidLiquid::curvature(const MotionFrame& f, Vec4* direction) {
+    double sum = 0;
+    for (Unknown& u : unknowns_) {
+        const RigidPiece& b = rigid_->pieces()[u.slot];
+        u.image = massTimes(b, u.direction);
+        for (size_t k = u.firstPair; k < u.endPair; ++k) {
+            const Pair& q = pairs_[k];
+            const float along = dot(direction[q.row].xyz() - direction[q.mover].xyz(), q.x);
+            const Double3 impulse = static_cast<double>(q.coefficient * along) * wide(q.x);
+            u.image.linear += impulse;
+            u.image.angular += cross(wide(f.particles.position[q.row].xyz()) - b.center, impulse);
+        }
+        sum += dot6(u.direction, u.image);
+    }
+    return sum;
+}
+
+Dots RigidLiquid::advance(double along) {
+    for (Unknown& u : unknowns_) {
+        RigidPiece& b = rigid_->pieces()[u.slot];
+        b.velocity += along * u.direction.linear, b.spin += along * u.direction.angular;
+        u.residual.linear -= along * u.image.linear, u.residual.angular -= along * u.image.angular;
+    }
+    return measure();
+}
+
+void RigidLiquid::turn(const MotionFrame& f, double keep, Vec4* direction) {
+    for (Unknown& u : unknowns_) {
+        u.direction = {u.z.linear + keep * u.direction.linear, u.z.angular + keep * u.direction.angular};
+        spread(f, u, u.direction, direction);
+    }
+}
+
+// What the solve changed is an impulse; what is frozen in it gets its pairs', by the velocities that came out.
+void RigidLiquid::finish(const MotionFrame& f, bool sound) {
+    const Particles& p = f.particles;
+    Array<RigidPiece>& pieces = rigid_->pieces();
+    for (RigidPiece& b : pieces) b.solved = false;
+    for (Unknown& u : unknowns_) {
+        RigidPiece& b = pieces[u.slot];
+        if (!sound) b.velocity = u.before.linear, b.spin = u.before.angular;
+        b.solved = true;
+        b.drag = b.velocity - u.before.linear, b.dragSpin = b.spin - u.before.angular;
+        const Six impulse = massTimes(b, {b.drag, b.dragSpin});
+        b.linear += impulse.linear, b.angular += impulse.angular;
+    }
+    for (RigidPiece& b : pieces)
+        if (!b.solved) b.drag = b.dragSpin = {};
+    if (!sound) return;
+    for (const Pair& q : pairs_) {
+        RigidPiece& b = pieces[q.slot];
+        if (b.solved) continue;
+        const float along = dot(p.velocity[q.mover].xyz() - p.velocity[q.row].xyz(), q.x);
+        hand(b, static_cast<double>(q.coefficient * along) * wide(q.x), wide(p.position[q.row].xyz()));
+    }
+}
+
+void RigidLiquid::press(const MotionFrame& f, const Vec4* point) {
+    for (const Pair& q : pairs_) {
+        const float change = point[q.mover].w;
+        if (change != 0)
+            hand(rigid_->pieces()[q.slot], -static_cast<double>(q.push * change) * wide(q.x),
+                 wide(f.particles.position[q.row].xyz()));
+    }
+}
+
+void RigidLiquid::settle(const MotionFrame& f) {
+    for (Near& n : near_) {
+        if (n.impulse.x == 0 && n.impulse.y == 0 && n.impulse.z == 0) continue;
+        hand(rigid_->pieces()[n.piece - 1u], wide(n.impulse), wide(f.particles.position[n.mover].xyz()));
+        n.impulse = {};
+    }
+    rigid_->settle(f);
+}
+
+} // namespace thaw

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "motion/pairs.h"
+#include "motion/rigid.h"
+
+namespace thaw {
+
+// What liquid and rigid pieces do to each other, inside the iterations: handed over after the solve, light pieces blow
+// up and others float wrongly. Every impulse on a mover by a row of a piece is on that piece too. In the viscosity
+// solve a piece has six unknowns of its own; one that a wall carried in the step before is frozen there (free, it blew
+// up) and gets what the pairs say at the end.
+class RigidLiquid {
+public:
+    explicit RigidLiquid(Allocator& allocator);
+
+    // A mover that lies against a piece: how much of what it lies against is that piece, and the impulse that holding
+    // it out took.
+    struct Near {
+        uint32_t mover;
+        uint16_t piece;
+        float share; // 0..1
+        Vec3 impulse;
+    };
+
+    struct Six {
+        Double3 linear, angular;
+    };
+    struct Unknown {
+        uint32_t slot;
+        bool visited; // by the search of what floats
+        size_t firstPair, endPair;
+        Six before, residual, direction, image, z;
+        double factor[6][6]; // Cholesky, of mass and pairs: the exact block
+    };
+
+    // After the forces: finds the pairs, and hands over what pressure and cohesion did. trait: see Motion. wall: its
+    // density error in w is fed back less beside a free piece.
+    void gather(const MotionFrame& f, const Vec4* trait, float feedback, Vec4* wall);
+    bool any() const { return !pairs_.empty(); }
+    Near* near(size_t mover) { return pairs_.empty() || !nearOf_[mover] ? nullptr : &near_[nearOf_[mover] - 1]; }
+    // The unknown of a piece that swims; null for what is held, carried or asleep.
+    Unknown* unknownOf(uint16_t piece);
+    Array<Unknown>& unknowns() { return unknowns_; }
+    Array<uint32_t>& group() { return group_; } // scratch of Motion::returnShared
+    Vec3 velocityAt(const MotionFrame& f, const Near& n) const;
+
+    // The conjugate gradients of the viscosity solve: the pieces' part of each of its steps. Rows of pieces get
+    // velocity and direction of theirs.
+    void prime(const MotionFrame& f);
+    Dots start(const MotionFrame& f, Vec4* direction);
+    void aimBack(const MotionFrame& f, Vec4* direction); // toward the velocities of the start of the sub-step
+    double slope() const;
+    double curvature(const MotionFrame& f, Vec4* direction);
+    Dots advance(double along);
+    void turn(const MotionFrame& f, double keep, Vec4* direction);
+    void finish(const MotionFrame& f, bool sound);
+
+    void press(const MotionFrame& f, const Vec4* point); // after a pressure iteration; w: its change, Pa
+    void settle(const MotionFrame& f);                   // hands over what holding out took; contacts, velocities
+
+private:
+    struct Pair {
+        uint32_t mover, row, slot;
+        Vec3 x;            // m, from the row to the mover
+        float coefficient; // kg/m^2, viscous
+        float push;        // m s, impulse of 1 Pa over x
+    };
+    static double dot6(const Six& a, const Six& b) { return dot(a.linear, b.linear) + dot(a.angular, b.angular); }
+    Six massTimes(const RigidPiece& b, const Six& v) const { return {b.mass * v.linear, b.inertia * v.angular}; }
+    void factorise(const MotionFrame& f, Unknown& u);
+    static Six precondition(const Unknown& u);
+    Dots measure();
+    void spread(const MotionFrame& f, const Unknown& u, const Six& v, Vec4* rows) const;
+
+    Rigid* rigid_ = nullptr;
+    Array<Pair> pairs_;
+    Array<Near> near_;
+    Array<uint32_t> nearOf_; // per mover: index + 1
+    Array<float> weight_;    // per mover near a piece: of its nearest pair
+    Array<Unknown> unknowns_;
+    Array<uint32_t> group_;
+};
+
+} // namespace thaw
