@@ -84,6 +84,7 @@ private:
     void addRigidMotion(const MotionFrame& f, const uint32_t* rows, size_t count, const double (&linear)[3],
                         const double (&angular)[3]);
     void moveRigidly(const MotionFrame& f, const uint32_t* rows, size_t size);
+    void thicken(const MotionFrame& f);
     void applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end);
 
     struct WallShear {
@@ -120,10 +121,10 @@ private:
     Array<Vec4> wallGradient_;  // per mover: xyz gradient of the wall's volume fraction in 1/m, w C = density error
     Array<Vec4>
         trait_; // per row: x viscosity in Pa s (< 0: fixed), y cohesion in m/s^2, z mass in kg, w pressure in Pa
-    Array<Vec4> point_;        // per row: xyz position, w pressure change of this iteration in Pa
-    Array<float> coefficient_; // per entry: viscous pair coefficient, kg/m^2
-    Array<Vec4> wallDrag_;     // two per mover: xx yy zz, xy xz yz of the no-slip block, kg
-    Array<Vec4> diagonal_;     // per mover: 1 / diagonal of the viscous matrix, 1/kg
+    Array<Vec4> point_;           // per row: xyz position, w pressure change of this iteration in Pa
+    Array<float> coefficient_;    // per entry: viscous pair coefficient, kg/m^2
+    Array<Vec4> wallDrag_;        // two per mover: xx yy zz, xy xz yz of the no-slip block, kg
+    Array<Vec4> inverse_, cross_; // per mover: xx yy zz and xy xz yz of its inverted viscous block, 1/kg
     Array<Vec4> before_, residual_, direction_, image_;
     // Per row: first the velocity at the start of the sub-step, then the position at its end before particles are moved
     // apart.

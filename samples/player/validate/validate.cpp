@@ -24,7 +24,7 @@ struct Suite {
 std::vector<Suite> suites() {
     return {{"motion",
              "liquids, solids and colliders at one step per frame",
-             {liquidCases(), impactCases(), colliderCases(), materialCases()}}};
+             {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases()}}};
 }
 
 struct Options {

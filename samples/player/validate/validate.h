@@ -44,5 +44,6 @@ CaseList liquidCases();
 CaseList colliderCases();
 CaseList materialCases();
 CaseList impactCases();
+CaseList filmCases();
 
 } // namespace thaw::player
