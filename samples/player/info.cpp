@@ -61,6 +61,9 @@ int info(const std::string& file) {
             "    viscosity %g solid, %g liquid Pa s; absorptivity %g, emissivity %g, cohesion %g, adhesion %g\n",
             double(d.viscositySolid), double(d.viscosityLiquid), double(d.absorptivity), double(d.emissivity),
             double(d.cohesion), double(d.adhesion));
+        if (d.yieldStress > 0)
+            std::printf("    yields at %g Pa, %s\n", double(d.yieldStress),
+                        d.flow == thawFlow_casson ? "Casson" : "Bingham");
     }
     std::printf("bodies: %zu\n", scene.bodies.size());
     for (size_t i = 0; i < scene.bodies.size(); ++i) {

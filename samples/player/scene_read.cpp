@@ -390,6 +390,12 @@ Material readMaterial(const json& value, const std::string& place, const std::st
     r.real("conductivityLiquid", d.conductivityLiquid, 0.0, 1e4, "W/(m K)");
     r.real("viscositySolid", d.viscositySolid, 1e-3, 1e7, "Pa s");
     r.real("viscosityLiquid", d.viscosityLiquid, 1e-4, 1e6, "Pa s");
+    r.real("yieldStress", d.yieldStress, 0.0, 1e6, "Pa");
+    std::string flow = d.flow == thawFlow_casson ? "casson" : "bingham";
+    r.text("flow", flow);
+    if (flow != "bingham" && flow != "casson")
+        r.bad(r.at("flow"), "must be one of bingham, casson, got \"" + oneLine(flow, 40) + "\"");
+    d.flow = flow == "casson" ? thawFlow_casson : thawFlow_bingham;
     r.real("absorptivity", d.absorptivity, 0.0, 1.0);
     r.real("emissivity", d.emissivity, 0.0, 1.0);
     r.real("cohesion", d.cohesion, 0.0, 20.0);

@@ -114,6 +114,8 @@ std::string materialText(const Material& material, int indent) {
     real("conductivityLiquid", d.conductivityLiquid, base.conductivityLiquid);
     real("viscositySolid", d.viscositySolid, base.viscositySolid);
     real("viscosityLiquid", d.viscosityLiquid, base.viscosityLiquid);
+    real("yieldStress", d.yieldStress, base.yieldStress);
+    if (d.flow != base.flow) o.add("flow", quoted(d.flow == thawFlow_casson ? "casson" : "bingham"));
     real("absorptivity", d.absorptivity, base.absorptivity);
     real("emissivity", d.emissivity, base.emissivity);
     real("cohesion", d.cohesion, base.cohesion);

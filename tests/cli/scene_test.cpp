@@ -41,7 +41,8 @@ Scene fullScene() {
     d.specificHeatSolid = 2001.5f;
     d.specificHeatLiquid = 4001.5f, d.conductivitySolid = 2.02f, d.conductivityLiquid = 0.551f,
     d.viscositySolid = 12345.6f;
-    d.viscosityLiquid = 0.00177f, d.absorptivity = 0.31f, d.emissivity = 0.87f, d.cohesion = 3.3f, d.adhesion = 1.7f;
+    d.viscosityLiquid = 0.00177f, d.yieldStress = 12.5f, d.flow = thawFlow_casson, d.absorptivity = 0.31f,
+    d.emissivity = 0.87f, d.cohesion = 3.3f, d.adhesion = 1.7f;
     d.setFraction = 0.11f, d.releaseFraction = 0.77f, d.color = {0.1f, 0.2f, 0.3f};
     d.youngModulus = 12345, d.solidYieldStress = 123.4f, d.relaxationTime = 5.5f, d.breakStrain = 0.33f;
     const ShapeType types[] = {ShapeType::box,  ShapeType::sphere, ShapeType::cylinder,

@@ -37,6 +37,7 @@ const std::map<std::string, float thawMaterialDef::*> kFields = {
     {"conductivityLiquid", &thawMaterialDef::conductivityLiquid},
     {"viscositySolid", &thawMaterialDef::viscositySolid},
     {"viscosityLiquid", &thawMaterialDef::viscosityLiquid},
+    {"yieldStress", &thawMaterialDef::yieldStress},
     {"absorptivity", &thawMaterialDef::absorptivity},
     {"emissivity", &thawMaterialDef::emissivity},
 };

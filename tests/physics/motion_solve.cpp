@@ -58,7 +58,8 @@ TEST_CASE("motion: the viscous pairs are symmetric for unequal sizes and viscosi
     s.weigh();
     const int n = s.particles.count, movers = s.particles.moverCount;
     const size_t rows = static_cast<size_t>(n + Particles::kPadding);
-    std::vector<Vec4> trait(rows, Vec4{-1, 0, 0, 0}), change(rows), diagonal(rows), v(rows), out(rows);
+    std::vector<Vec4> trait(rows, Vec4{-1, 0, 0, 0}), change(rows), diagonal(rows), offDiagonal(rows), v(rows),
+        out(rows);
     std::vector<float> coefficient(s.neighbors.entries.size());
     for (size_t i = 0; i < static_cast<size_t>(n); ++i) {
         const bool fixed = s.particles.fixed(static_cast<int>(i));
@@ -67,7 +68,7 @@ TEST_CASE("motion: the viscous pairs are symmetric for unequal sizes and viscosi
     }
     const PairLists lists(s.neighbors);
     pairForces({lists, s.particles.position.data(), trait.data(), s.volume.data(), s.invDensity.data(), 0.01f, true,
-                change.data(), diagonal.data(), coefficient.data()},
+                change.data(), diagonal.data(), offDiagonal.data(), coefficient.data()},
                0, s.neighbors.moverGroups);
 
     const auto entryOf = [&](int i, int j) {
@@ -96,7 +97,7 @@ TEST_CASE("motion: the viscous pairs are symmetric for unequal sizes and viscosi
     for (size_t i = 0; i < static_cast<size_t>(movers); ++i) trait[i].z = s.particles.velocity[i].w;
     coefficient.resize(s.neighbors.entries.size());
     pairForces({PairLists(s.neighbors), s.particles.position.data(), trait.data(), s.volume.data(), s.invDensity.data(),
-                0.01f, true, change.data(), diagonal.data(), coefficient.data()},
+                0.01f, true, change.data(), diagonal.data(), offDiagonal.data(), coefficient.data()},
                0, s.neighbors.moverGroups);
     double sum[3] = {}, size = 0;
     for (size_t i = 0; i < static_cast<size_t>(movers); ++i) {

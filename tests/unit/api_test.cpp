@@ -80,6 +80,7 @@ TEST_CASE("api: a field of a material out of range is named with its value") {
         {"specificHeatSolid", [](thawMaterialDef& d) { d.specificHeatSolid = 0; }},
         {"conductivityLiquid", [](thawMaterialDef& d) { d.conductivityLiquid = -1; }},
         {"viscosityLiquid", [](thawMaterialDef& d) { d.viscosityLiquid = 0; }},
+        {"yieldStress", [](thawMaterialDef& d) { d.yieldStress = -1; }},
         {"viscositySolid", [](thawMaterialDef& d) { d.viscositySolid = 1e9f; }},
         {"absorptivity", [](thawMaterialDef& d) { d.absorptivity = 1.5f; }},
         {"emissivity", [](thawMaterialDef& d) { d.emissivity = -0.1f; }},

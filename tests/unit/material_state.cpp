@@ -60,3 +60,22 @@ TEST_CASE("material: the heat between solidus and liquidus") {
     CHECK(m.viscosity(0) == doctest::Approx(1e4).epsilon(1e-4).scale(0));
     CHECK(m.viscosity(1) == doctest::Approx(0.01).epsilon(1e-4).scale(0));
 }
+
+TEST_CASE("material: a yield stress is what remains of the stress when the shear rate goes to zero") {
+    thawMaterialDef d = wax();
+    d.yieldStress = 36;
+    for (const float mu : {0.5f, 8.7f})
+        for (const float rate : {0.5f, 5.0f, 50.0f}) {
+            d.flow = thawFlow_bingham;
+            const double bingham = static_cast<double>((mu + Material(d).yieldViscosity(mu, rate)) * rate);
+            CHECK(bingham == doctest::Approx(36 + static_cast<double>(mu * rate)).epsilon(0.003));
+            d.flow = thawFlow_casson;
+            const double casson = static_cast<double>((mu + Material(d).yieldViscosity(mu, rate)) * rate);
+            CHECK(std::sqrt(casson) ==
+                  doctest::Approx(std::sqrt(36.0) + std::sqrt(static_cast<double>(mu * rate))).epsilon(0.003));
+        }
+    d.flow = thawFlow_bingham;
+    CHECK(Material(d).yieldViscosity(1, 0) * 1e-3f == doctest::Approx(36)); // no more than this at rest
+    d.yieldStress = 0;
+    CHECK(Material(d).yieldViscosity(1, 0) == 0);
+}

@@ -178,6 +178,12 @@ typedef enum thawMaterialPreset {
     thawMaterial_presetCount
 } thawMaterialPreset;
 
+/* Shear stress tau of a melt with a yield stress tau_y, at shear rate g and viscosity mu. */
+typedef enum thawFlow {
+    thawFlow_bingham = 0, /* tau = tau_y + mu g */
+    thawFlow_casson       /* sqrt(tau) = sqrt(tau_y) + sqrt(mu g) */
+} thawFlow;
+
 typedef struct thawMaterialDef {
     uint32_t structSize, cookie;
     float density;           /* kg/m^3, range 1..3e4. One value for both phases: volume does not change on melting */
@@ -187,11 +193,13 @@ typedef struct thawMaterialDef {
     float conductivitySolid, conductivityLiquid; /* W/(m K), range 0..1e4 */
     float viscositySolid;  /* Pa s at liquid fraction 0 for mush and pieces that lost their hold; range 1e-3..1e7 */
     float viscosityLiquid; /* Pa s at liquid fraction 1; range 1e-4..1e6. log-blended between (RESEARCH 3.4) */
-    float absorptivity;    /* 1, share of incoming radiation that is taken up; range 0..1 */
-    float emissivity;      /* 1, of thermal radiation; range 0..1 */
-    float cohesion;        /* 1, pull between particles in units of g / 10; range 0..20; makes beads */
-    float adhesion;        /* 1, pull toward solid wax and walls in units of g; range 0..5; makes films cling */
-    float setFraction;     /* liquid fraction below which liquid that touches a solid sets; range 0..releaseFraction */
+    float yieldStress;  /* Pa, below which the melt does not flow; range 0..1e6, 0: flows at any stress (Newtonian) */
+    thawFlow flow;      /* how stress grows above yieldStress; not read when that is 0 */
+    float absorptivity; /* 1, share of incoming radiation that is taken up; range 0..1 */
+    float emissivity;   /* 1, of thermal radiation; range 0..1 */
+    float cohesion;     /* 1, pull between particles in units of g / 10; range 0..20; makes beads */
+    float adhesion;     /* 1, pull toward solid wax and walls in units of g; range 0..5; makes films cling */
+    float setFraction;  /* liquid fraction below which liquid that touches a solid sets; range 0..releaseFraction */
     float releaseFraction; /* liquid fraction above which solid lets go; range setFraction..1 */
     thawVec3 color;        /* linear RGB 0..1, for whoever draws it */
     /* Elastic solid; Poisson's ratio is 1/4 and viscositySolid damps it. */

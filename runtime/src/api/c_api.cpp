@@ -149,6 +149,10 @@ void checkMaterial(Check& c, const thawMaterialDef* d) {
     c.range("conductivityLiquid", d->conductivityLiquid, 0, 1e4);
     c.range("viscositySolid", d->viscositySolid, 1e-3, 1e7);
     c.range("viscosityLiquid", d->viscosityLiquid, 1e-4, 1e6);
+    c.range("yieldStress", d->yieldStress, 0, 1e6);
+    const int flow = valueOf(d->flow);
+    if (flow != thawFlow_bingham && flow != thawFlow_casson)
+        c.fail(thawResult_invalidArgument, "flow: is not a thawFlow, got %d", flow);
     c.range("absorptivity", d->absorptivity, 0, 1);
     c.range("emissivity", d->emissivity, 0, 1);
     c.range("cohesion", d->cohesion, 0, 20);

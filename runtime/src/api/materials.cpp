@@ -7,7 +7,7 @@ namespace {
 
 struct Preset {
     const char* name;
-    float density, solidus, liquidus, latent, cs, cl, ks, kl, muSolid, muLiquid, absorptivity, emissivity;
+    float density, solidus, liquidus, latent, cs, cl, ks, kl, muSolid, muLiquid, yield, absorptivity, emissivity;
     float cohesion, adhesion;
     thawVec3 color;
 };
@@ -26,6 +26,7 @@ constexpr Preset kPresets[thawMaterial_presetCount] = {
      0.15f,
      1e4f,
      5e-3f,
+     0,
      0.7f,
      0.94f,
      6,
@@ -41,7 +42,8 @@ constexpr Preset kPresets[thawMaterial_presetCount] = {
      0.24f,
      0.26f,
      1e4f,
-     6.0f,
+     8.7f,
+     36.0f,
      0.9f,
      0.92f,
      6,
@@ -58,6 +60,7 @@ constexpr Preset kPresets[thawMaterial_presetCount] = {
      0.17f,
      2e3f,
      0.035f,
+     0,
      0.8f,
      0.92f,
      6,
@@ -74,6 +77,7 @@ constexpr Preset kPresets[thawMaterial_presetCount] = {
      0.56f,
      1e5f,
      1.8e-3f,
+     0,
      0.9f,
      0.96f,
      6,
@@ -90,6 +94,7 @@ constexpr Preset kPresets[thawMaterial_presetCount] = {
      0.3f,
      3e3f,
      0.4f,
+     0,
      0.85f,
      0.95f,
      6,
@@ -109,6 +114,7 @@ thawMaterialDef materialPreset(thawMaterialPreset preset) {
     d.specificHeatSolid = p.cs, d.specificHeatLiquid = p.cl;
     d.conductivitySolid = p.ks, d.conductivityLiquid = p.kl;
     d.viscositySolid = p.muSolid, d.viscosityLiquid = p.muLiquid;
+    d.yieldStress = p.yield, d.flow = thawFlow_bingham;
     d.absorptivity = p.absorptivity, d.emissivity = p.emissivity;
     d.cohesion = p.cohesion, d.adhesion = p.adhesion;
     d.setFraction = 0.35f, d.releaseFraction = 0.6f;

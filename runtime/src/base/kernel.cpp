@@ -24,12 +24,12 @@ double slope(double q) {
 }
 
 struct LatticeConstants {
-    float sum, shear, stiffness;
+    float sum, shear, strain, stiffness;
 
     LatticeConstants() {
         const double h = static_cast<double>(kSupport), h3 = h * h * h;
         const int reach = 3;
-        double s = 0, projected = 0, squares = 0;
+        double s = 0, projected = 0, spread = 0, squares = 0;
         for (int i = -reach; i <= reach; ++i)
             for (int j = -reach; j <= reach; ++j)
                 for (int k = -reach; k <= reach; ++k) {
@@ -40,10 +40,12 @@ struct LatticeConstants {
                     // Shear flow v_x = z: force moment of the projected pair viscosity
                     // 10 mu V^2 (-W'/r) / (r^2 + 0.01 h^2) (v_ij . x_ij) x_ij; it should be 2 mu.
                     projected += 10 * g * (i * i) * (k * k) / (r2 + 0.01 * h * h);
+                    spread += g * r2 * r2 / (r2 + 0.01 * h * h);
                     squares += g * g * r2;
                 }
         sum = static_cast<float>(s);
         shear = static_cast<float>(projected / 2);
+        strain = static_cast<float>(spread);
         stiffness = static_cast<float>(s * s / squares);
     }
 };
@@ -92,6 +94,7 @@ struct WallTables : WallTable {
 
 float latticeSum() { return lattice().sum; }
 float shearMoment() { return lattice().shear; }
+float strainMoment() { return lattice().strain; }
 float bulkStiffness() { return lattice().stiffness; }
 
 const WallTable& wallTable() {

@@ -19,6 +19,7 @@ struct BondPass {
     // Added to, as pairForces wrote them.
     Vec4* change;
     Vec4* diagonal;
+    Vec4* cross;
     float* coefficient;
 };
 // A spring pressed by more than this share of its length pushes no harder: what is turned inside out must find back.

@@ -19,9 +19,11 @@ void springGroups(const BondPass& p, int begin, int end) {
             const int row = 8 * g + part;
             const size_t start = p.lists.first[g] + static_cast<size_t>(part);
             const uint32_t* entry = p.lists.entries + start;
-            const Rows xi = loadRows(p.position + row), old = loadRows(p.change + row), on = loadRows(p.diagonal + row);
+            const Rows xi = loadRows(p.position + row), old = loadRows(p.change + row);
+            const Rows on = loadRows(p.diagonal + row), off = loadRows(p.cross + row);
             const F32 mass = loadRows(p.trait + row).z;
             F32 fx = zero(), fy = zero(), fz = zero(), dx = on.x, dy = on.y, dz = on.z;
+            F32 dxy = off.x, dxz = off.y, dyz = off.z;
             for (uint32_t k = 0; k < p.lists.width[g]; ++k) {
                 const F32 stiff = load(p.stiffness + start + 8 * k);
                 if (hn::AllFalse(kF32, hn::Gt(stiff, zero()))) continue;
@@ -36,11 +38,14 @@ void springGroups(const BondPass& p, int begin, int end) {
                 store(hn::Add(load(p.coefficient + start + 8 * k), c), p.coefficient + start + 8 * k);
                 dx = hn::MulAdd(c, hn::Mul(x, x), dx), dy = hn::MulAdd(c, hn::Mul(y, y), dy);
                 dz = hn::MulAdd(c, hn::Mul(z, z), dz);
+                dxy = hn::MulAdd(c, hn::Mul(x, y), dxy), dxz = hn::MulAdd(c, hn::Mul(x, z), dxz);
+                dyz = hn::MulAdd(c, hn::Mul(y, z), dyz);
             }
             const F32 s = hn::IfThenElseZero(hn::Gt(mass, zero()), hn::Div(all(p.dt), mass));
             storeRows(p.change + row, hn::MulAdd(s, fx, old.x), hn::MulAdd(s, fy, old.y), hn::MulAdd(s, fz, old.z),
                       zero());
             storeRows(p.diagonal + row, dx, dy, dz, zero());
+            storeRows(p.cross + row, dxy, dxz, dyz, zero());
         }
     }
 }

@@ -16,8 +16,8 @@ void Motion::forces(const MotionFrame& f) {
     for (int r = 0; r < p.count; ++r) used[p.material[static_cast<size_t>(r)]] = true;
     for (int m = 0; m < 256; ++m) cohesive |= used[m] && f.materials[m].def.cohesion > 0;
     const ForcePass pass{
-        PairLists(f.neighbors), p.position.data(), trait_.data(),      f.volume, f.invDensity, f.dt, cohesive,
-        image_.data(),          diagonal_.data(),  coefficient_.data()};
+        PairLists(f.neighbors), p.position.data(), trait_.data(), f.volume,           f.invDensity, f.dt, cohesive,
+        image_.data(),          inverse_.data(),   cross_.data(), coefficient_.data()};
     const Vec3 down = normalizeOr(f.gravity, {});
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
         pairForces(pass, begin, end);

@@ -18,7 +18,7 @@ constexpr float kPull = 0.01f;
 
 void Motion::addSprings(const MotionFrame& f, int begin, int end) {
     pairSprings({PairLists(f.neighbors), f.particles.position.data(), trait_.data(), f.bonds->groupOn.data(),
-                 f.bonds->stiffness.data(), f.bonds->rest.data(), f.dt, image_.data(), diagonal_.data(),
+                 f.bonds->stiffness.data(), f.bonds->rest.data(), f.dt, image_.data(), inverse_.data(), cross_.data(),
                  coefficient_.data()},
                 begin, end);
 }

@@ -80,9 +80,9 @@ bool outside(const Box& b, Vec3 p, float margin) {
 Motion::Motion(Allocator& a)
     : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), contactOf_(a), contactSlope_(a),
       wallVelocity_(a), wallPush_(a), heldVelocity_(a), kick_(a), heldKick_(a), reportSlot_(a), reports_(a), held_(a),
-      landing_(a), landingOn_(a), wallGradient_(a), trait_(a), point_(a), coefficient_(a), wallDrag_(a), diagonal_(a),
-      before_(a), residual_(a), direction_(a), image_(a), grip_(a), target_(a), piece_(a), queue_(a), pieceEnd_(a),
-      sums_(a) {}
+      landing_(a), landingOn_(a), wallGradient_(a), trait_(a), point_(a), coefficient_(a), wallDrag_(a), inverse_(a),
+      cross_(a), before_(a), residual_(a), direction_(a), image_(a), grip_(a), target_(a), piece_(a), queue_(a),
+      pieceEnd_(a), sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
@@ -98,7 +98,8 @@ void Motion::begin(const MotionFrame& f) {
     contactCount_.resizeRaw(movers), held_.resizeRaw(movers), piece_.resizeRaw(movers), queue_.resizeRaw(movers),
         pieceEnd_.resizeRaw(movers), landing_.resizeRaw(movers), landingOn_.resizeRaw(movers),
         wallGradient_.resizeRaw(movers), wallDrag_.resizeRaw(2 * movers);
-    diagonal_.resizeRaw(movers), before_.resizeRaw(movers), residual_.resizeRaw(movers), image_.resizeRaw(movers);
+    inverse_.resizeRaw(movers), cross_.resizeRaw(movers), before_.resizeRaw(movers), residual_.resizeRaw(movers),
+        image_.resizeRaw(movers);
     trait_.resizeRaw(rows), point_.resizeRaw(rows), direction_.resizeRaw(rows), target_.resizeRaw(rows);
     coefficient_.resizeRaw(f.neighbors.entries.size());
     sums_.assign(static_cast<size_t>(Tasks::blockCount(f.neighbors.moverGroups, kBlock)), {});

@@ -101,6 +101,7 @@ private:
     bool regrip(const MotionFrame& f);
     void reportGrip(const MotionFrame& f);
     bool gripped(size_t i) const { return bonded_ && grip_[i].w > 0; }
+    void thicken(const MotionFrame& f);
 
     struct WallShear {
         float tangent, normal; // kg: tangent (v - n (n v)) + (tangent + normal) n (n v)
@@ -136,10 +137,10 @@ private:
     Array<Vec4> wallGradient_;  // per mover: xyz gradient of the wall's volume fraction in 1/m, w C = density error
     Array<Vec4>
         trait_; // per row: x viscosity in Pa s (< 0: fixed), y cohesion in m/s^2, z mass in kg, w pressure in Pa
-    Array<Vec4> point_;        // per row: xyz position, w pressure change of this iteration in Pa
-    Array<float> coefficient_; // per entry: viscous pair coefficient, kg/m^2
-    Array<Vec4> wallDrag_;     // two per mover: xx yy zz, xy xz yz of the no-slip block, kg
-    Array<Vec4> diagonal_;     // per mover: 1 / diagonal of the viscous matrix, 1/kg
+    Array<Vec4> point_;           // per row: xyz position, w pressure change of this iteration in Pa
+    Array<float> coefficient_;    // per entry: viscous pair coefficient, kg/m^2
+    Array<Vec4> wallDrag_;        // two per mover: xx yy zz, xy xz yz of the no-slip block, kg
+    Array<Vec4> inverse_, cross_; // per mover: xx yy zz and xy xz yz of its inverted viscous block, 1/kg
     Array<Vec4> before_, residual_, direction_, image_;
     // Elastic solids: whether there are any; per mover, what a wall that it is pressed against makes of its velocity in
     // the viscous solve, w 1, or w 0.

@@ -27,10 +27,11 @@ struct ForcePass {
     const float* invDensity; // 0 for fixed
     float dt;
     bool cohesive; // some material coheres
-    // Out, per row: dv by cohesion and warm pressure (pairs only), the diagonal of the viscous pair matrix; per entry:
-    // the viscous coefficient.
+    // Out, per row: dv by cohesion and warm pressure (pairs only), the 3 x 3 diagonal block of the viscous pair matrix;
+    // per entry: the viscous coefficient.
     Vec4* change;
-    Vec4* diagonal;
+    Vec4* diagonal; // xx yy zz of its block
+    Vec4* cross;    // xy xz yz
     float* coefficient;
 };
 void pairForces(const ForcePass& p, int begin, int end);
@@ -45,6 +46,16 @@ struct ViscousPass {
     Vec4* out;            // w = 0
 };
 void pairViscosity(const ViscousPass& p, int begin, int end);
+
+// out.x = sum of w_ij ((v_i - v_j) . x_ij)^2 in 1/s^2, out.y = sum of w_ij |x_ij|^4, w_ij = -g_ij / (|x_ij|^2 + 0.01
+// h^2): what the viscous pairs dissipate, and how much of the lattice is there to do it.
+struct StrainPass {
+    PairLists lists;
+    const Vec4* position;
+    const Vec4* velocity;
+    Vec4* out;
+};
+void pairStrain(const StrainPass& p, int begin, int end);
 
 // Jacobi update of the pressure: error_i = (C_i, times feedback when > 0) + dt (wall_i . v_i + sum_j g_ij . (v_i -
 // v_j)), P_i = max(0, P_i + weight error_i stiffness_i); rows with inverse density 0 keep theirs.
@@ -95,11 +106,11 @@ void pairSeparation(const SeparationPass& p, int begin, int end);
 struct Dots {
     double a = 0, b = 0;
 };
-// v += along d; r -= along q; returns r . (inverse r) and r . r
-Dots advance(float along, const Vec4* direction, const Vec4* image, const Vec4* inverse, Vec4* velocity, Vec4* residual,
-             int begin, int end);
-// d = inverse r + keep d
-void turn(float keep, const Vec4* residual, const Vec4* inverse, Vec4* direction, int begin, int end);
+// v += along d; r -= along q; q = inverse r; returns r . (inverse r) and r . r. inverse: xx yy zz, cross: xy xz yz.
+Dots advance(float along, const Vec4* direction, Vec4* image, const Vec4* inverse, const Vec4* cross, Vec4* velocity,
+             Vec4* residual, int begin, int end);
+// d = z + keep d
+void turn(float keep, const Vec4* z, Vec4* direction, int begin, int end);
 double innerProduct(const Vec4* a, const Vec4* b, int begin, int end);
 
 } // namespace thaw

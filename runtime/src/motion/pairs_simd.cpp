@@ -29,7 +29,7 @@ template <bool kCohesive> HWY_INLINE void forceRows(const ForcePass& p, const Sp
     const F32 half = all(0.5f);
     const F32 scale = hn::Mul(all(-weight), load(p.volume + s.row));
     F32 px = zero(), py = zero(), pz = zero(), cx = zero(), cy = zero(), cz = zero();
-    F32 dx = zero(), dy = zero(), dz = zero();
+    F32 dx = zero(), dy = zero(), dz = zero(), dxy = zero(), dxz = zero(), dyz = zero();
     for (uint32_t k = 0; k < s.width; ++k) {
         const Rows xj = gatherRows(p.position, s.entry + 8 * k), tj = gatherRows(p.trait, s.entry + 8 * k);
         const F32 g = load(p.lists.gradient + s.start + 8 * k);
@@ -44,8 +44,9 @@ template <bool kCohesive> HWY_INLINE void forceRows(const ForcePass& p, const Sp
         const F32 mu = hn::IfThenElse(fixed, ti.x, hn::Mul(half, hn::Add(ti.x, tj.x)));
         const F32 c = hn::Div(hn::Mul(hn::Mul(scale, mu), g), hn::MulAdd(all(0.01f), h2, r2));
         store(c, p.coefficient + s.start + 8 * k);
-        dx = hn::MulAdd(c, hn::Mul(x, x), dx), dy = hn::MulAdd(c, hn::Mul(y, y), dy);
-        dz = hn::MulAdd(c, hn::Mul(z, z), dz);
+        const F32 alongX = hn::Mul(c, x), alongY = hn::Mul(c, y);
+        dx = hn::MulAdd(alongX, x, dx), dy = hn::MulAdd(alongY, y, dy), dz = hn::MulAdd(c, hn::Mul(z, z), dz);
+        dxy = hn::MulAdd(alongX, y, dxy), dxz = hn::MulAdd(alongX, z, dxz), dyz = hn::MulAdd(alongY, z, dyz);
 
         if (kCohesive) {
             // None up to one spacing, none at the support, largest (1) between.
@@ -69,6 +70,7 @@ template <bool kCohesive> HWY_INLINE void forceRows(const ForcePass& p, const Sp
     }
     storeRows(p.change + s.row, px, py, pz, zero());
     storeRows(p.diagonal + s.row, dx, dy, dz, zero());
+    storeRows(p.cross + s.row, dxy, dxz, dyz, zero());
 }
 
 void forceGroups(const ForcePass& p, int begin, int end) {
@@ -97,6 +99,26 @@ void viscousGroups(const ViscousPass& p, int begin, int end) {
                 ox = hn::MulAdd(f, x, ox), oy = hn::MulAdd(f, y, oy), oz = hn::MulAdd(f, z, oz);
             }
             storeRows(p.out + s.row, ox, oy, oz, zero());
+        }
+}
+
+void strainGroups(const StrainPass& p, int begin, int end) {
+    for (int g = begin; g < end; ++g)
+        for (int part = 0; part < 8; part += kLanes) {
+            const Span s = spanOf(p.lists, g, part);
+            const Rows xi = loadRows(p.position + s.row), vi = loadRows(p.velocity + s.row);
+            F32 rate = zero(), share = zero();
+            for (uint32_t k = 0; k < s.width; ++k) {
+                const Rows xj = gatherRows(p.position, s.entry + 8 * k), vj = gatherRows(p.velocity, s.entry + 8 * k);
+                const F32 x = hn::Sub(xi.x, xj.x), y = hn::Sub(xi.y, xj.y), z = hn::Sub(xi.z, xj.z);
+                const F32 r2 = dot3(x, y, z, x, y, z), h = hn::Add(xi.w, xj.w);
+                const F32 along = dot3(hn::Sub(vi.x, vj.x), hn::Sub(vi.y, vj.y), hn::Sub(vi.z, vj.z), x, y, z);
+                const F32 least = hn::Mul(all(0.25f * 0.01f), hn::Mul(h, h));
+                const F32 w = hn::Div(load(p.lists.gradient + s.start + 8 * k), hn::Add(r2, least));
+                rate = hn::NegMulAdd(hn::Mul(w, along), along, rate);
+                share = hn::NegMulAdd(hn::Mul(w, r2), r2, share);
+            }
+            storeRows(p.out + s.row, rate, share, zero(), zero());
         }
 }
 
@@ -171,24 +193,28 @@ void heldGroups(const HeldPass& p, int begin, int end) {
         }
 }
 
-Dots advanceRows(float along, const float* direction, const float* image, const float* inverse, float* velocity,
-                 float* residual, int begin, int end) {
+Dots advanceRows(float along, const Vec4* direction, Vec4* image, const Vec4* inverse, const Vec4* cross,
+                 Vec4* velocity, Vec4* residual, int begin, int end) {
     const F32 a = all(along);
     F32 rz = zero(), rr = zero();
     for (int k = begin; k < end; k += kLanes) {
-        store(hn::MulAdd(a, load(direction + k), load(velocity + k)), velocity + k);
-        const F32 r = hn::NegMulAdd(a, load(image + k), load(residual + k));
-        store(r, residual + k);
-        const F32 r2 = hn::Mul(r, r);
-        rr = hn::Add(rr, r2), rz = hn::MulAdd(r2, load(inverse + k), rz);
+        const Rows d = loadRows(direction + k), v = loadRows(velocity + k);
+        storeRows(velocity + k, hn::MulAdd(a, d.x, v.x), hn::MulAdd(a, d.y, v.y), hn::MulAdd(a, d.z, v.z), v.w);
+        const Rows q = loadRows(image + k), r = loadRows(residual + k);
+        const F32 x = hn::NegMulAdd(a, q.x, r.x), y = hn::NegMulAdd(a, q.y, r.y), z = hn::NegMulAdd(a, q.z, r.z);
+        storeRows(residual + k, x, y, z, zero());
+        const Rows m = loadRows(inverse + k), c = loadRows(cross + k);
+        const F32 zx = dot3(m.x, c.x, c.y, x, y, z), zy = dot3(c.x, m.y, c.z, x, y, z),
+                  zz = dot3(c.y, c.z, m.z, x, y, z);
+        storeRows(image + k, zx, zy, zz, zero());
+        rr = hn::Add(rr, dot3(x, y, z, x, y, z)), rz = hn::Add(rz, dot3(x, y, z, zx, zy, zz));
     }
     return {sumOfLanes(rz), sumOfLanes(rr)};
 }
 
-void turnRows(float keep, const float* residual, const float* inverse, float* direction, int begin, int end) {
+void turnRows(float keep, const float* z, float* direction, int begin, int end) {
     for (int k = begin; k < end; k += kLanes)
-        store(hn::MulAdd(all(keep), load(direction + k), hn::Mul(load(residual + k), load(inverse + k))),
-              direction + k);
+        store(hn::MulAdd(all(keep), load(direction + k), load(z + k)), direction + k);
 }
 
 double innerRows(const float* a, const float* b, int begin, int end) {
@@ -244,6 +270,7 @@ HWY_AFTER_NAMESPACE();
 namespace thaw {
 HWY_EXPORT(forceGroups);
 HWY_EXPORT(viscousGroups);
+HWY_EXPORT(strainGroups);
 HWY_EXPORT(jacobiGroups);
 HWY_EXPORT(pushGroups);
 HWY_EXPORT(heldGroups);
@@ -253,19 +280,19 @@ HWY_EXPORT(turnRows);
 HWY_EXPORT(innerRows);
 void pairForces(const ForcePass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(forceGroups)(p, begin, end); }
 void pairViscosity(const ViscousPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(viscousGroups)(p, begin, end); }
+void pairStrain(const StrainPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(strainGroups)(p, begin, end); }
 void pairJacobi(const JacobiPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(jacobiGroups)(p, begin, end); }
 void pairPush(const PushPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(pushGroups)(p, begin, end); }
 void pairHeld(const HeldPass& p, int begin, int end) { HWY_DYNAMIC_DISPATCH(heldGroups)(p, begin, end); }
 void pairSeparation(const SeparationPass& p, int begin, int end) {
     HWY_DYNAMIC_DISPATCH(separationGroups)(p, begin, end);
 }
-Dots advance(float along, const Vec4* direction, const Vec4* image, const Vec4* inverse, Vec4* velocity, Vec4* residual,
-             int begin, int end) {
-    return HWY_DYNAMIC_DISPATCH(advanceRows)(along, &direction->x, &image->x, &inverse->x, &velocity->x, &residual->x,
-                                             4 * begin, 4 * end);
+Dots advance(float along, const Vec4* direction, Vec4* image, const Vec4* inverse, const Vec4* cross, Vec4* velocity,
+             Vec4* residual, int begin, int end) {
+    return HWY_DYNAMIC_DISPATCH(advanceRows)(along, direction, image, inverse, cross, velocity, residual, begin, end);
 }
-void turn(float keep, const Vec4* residual, const Vec4* inverse, Vec4* direction, int begin, int end) {
-    HWY_DYNAMIC_DISPATCH(turnRows)(keep, &residual->x, &inverse->x, &direction->x, 4 * begin, 4 * end);
+void turn(float keep, const Vec4* z, Vec4* direction, int begin, int end) {
+    HWY_DYNAMIC_DISPATCH(turnRows)(keep, &z->x, &direction->x, 4 * begin, 4 * end);
 }
 double innerProduct(const Vec4* a, const Vec4* b, int begin, int end) {
     return HWY_DYNAMIC_DISPATCH(innerRows)(&a->x, &b->x, 4 * begin, 4 * end);

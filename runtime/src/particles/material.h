@@ -44,6 +44,13 @@ struct Material {
     double enthalpyFloor() const { return -static_cast<double>(def.solidus) * def.specificHeatSolid; }
     // Log blend: a linear one keeps mush solid until it is all but molten.
     float viscosity(float phi) const { return detExp((1 - phi) * logViscositySolid + phi * logViscosityLiquid); }
+    // Pa s at shear rate in 1/s, above mu: what the yield stress adds to it. tau / rate - mu of thawFlow, with the rate
+    // kept from zero: a melt below its yield stress creeps.
+    float yieldViscosity(float mu, float rate) const {
+        constexpr float kCreep = 1e-3f; // 1/s, of what is at half its yield stress
+        const float thick = def.yieldStress / (rate + kCreep);
+        return def.flow == thawFlow_casson ? thick + 2 * std::sqrt(thick * mu) : thick;
+    }
     float conductivity(float phi) const { return (1 - phi) * def.conductivitySolid + phi * def.conductivityLiquid; }
 };
 

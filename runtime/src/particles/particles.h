@@ -19,13 +19,13 @@ enum ParticleFlag : uint8_t {
 // Every per-particle quantity that lives from step to step: one list, used by sort, hash and removal alike.
 //   type, name: meaning
 #define THAW_PARTICLE_FIELDS(X)                                                                                        \
-    X(Vec4, position) /* xyz m; w support radius h = kSupport * spacing of its level, m */                             \
-    X(Vec4, velocity) /* xyz m/s; w mass kg */                                                                         \
-    X(Vec4,                                                                                                            \
-      velocityChange)   /* xyz m/s, what the last viscosity solve did (its warm start); w Pa s >= 0, of a start in stiffness */ \
-    X(Vec4, normal)     /* xyz outward unit normal, w exposed area m^2; zero inside */                                 \
-    X(double, enthalpy) /* J/kg above the material's solidus; double: a frame adds 1e-8 of it */                       \
-    X(float, temperature)    /* K, from enthalpy */                                                                    \
+    X(Vec4, position)       /* xyz m; w support radius h = kSupport * spacing of its level, m */                       \
+    X(Vec4, velocity)       /* xyz m/s; w mass kg */                                                                   \
+    X(Vec4, velocityChange) /* xyz m/s, what the last viscosity solve did (its warm start); w Pa s >= 0, of a start in \
+                               stiffness or a yield stress */                                                          \
+    X(Vec4, normal)         /* xyz outward unit normal, w exposed area m^2; zero inside */                             \
+    X(double, enthalpy)     /* J/kg above the material's solidus; double: a frame adds 1e-8 of it */                   \
+    X(float, temperature)   /* K, from enthalpy */                                                                     \
     X(float, liquidFraction) /* 0..1, from enthalpy */                                                                 \
     X(float, pressure)       /* Pa, warm start of the next step */                                                     \
     X(float, stiffness)      /* Jacobi coefficient of the last step, 0 when there was none */                          \

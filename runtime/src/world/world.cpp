@@ -320,6 +320,65 @@ void World::refreshExposure() {
                             tasks);
 }
 
+// The pressure of its depth is what a liquid has that walls hold on all sides. Where it is open it has no more than
+// that of the way to the surface: a layer of 12 mm and 20 Pa s, 0.26 m down an incline of 30 degrees, burst at 3.4 m/s
+// otherwise; theory and now are 0.018.
+void World::boundStartPressure(uint16_t body) {
+    bool any = false;
+    for (int i = 0; i < particles.count && !any; ++i) {
+        const size_t k = static_cast<size_t>(i);
+        any = particles.body[k] == body && particles.pressure[k] > 0;
+    }
+    if (!any) return;
+    // Surface that looks into a wall is not open.
+    const auto facesAir = [&](int i) {
+        const size_t k = static_cast<size_t>(i);
+        bool open = particles.flags[k] & kSurface;
+        for (size_t c = 0; c < colliders.size() && open; ++c) {
+            if (!colliders[c].alive) continue;
+            Vec3 normal;
+            const float near = particles.position[k].w / kSupport;
+            if (colliders[c].distance(particles.position[k].xyz(), normal) < near)
+                open = dot(normal, particles.normal[k].xyz()) > -0.5f;
+        }
+        return open;
+    };
+    std::vector<float> depth(static_cast<size_t>(particles.count), INFINITY);
+    std::vector<int> open;
+    std::vector<char> isOpen(static_cast<size_t>(particles.count));
+    for (int i = 0; i < particles.count; ++i) isOpen[static_cast<size_t>(i)] = facesAir(i);
+    // A hole that the filling left in a corner has a few such particles too.
+    constexpr int kOpenNeighbors = 4;
+    for (int i = 0; i < particles.count; ++i) {
+        const size_t k = static_cast<size_t>(i);
+        if (!isOpen[k]) continue;
+        int around = 0;
+        forNeighbors(neighbors_, i, [&](uint32_t j) {
+            if (j >= static_cast<uint32_t>(particles.count)) return false;
+            around += isOpen[j];
+            return true;
+        });
+        if (around < kOpenNeighbors) continue;
+        depth[k] = 0.5f * particles.position[k].w / kSupport, open.push_back(i);
+    }
+    for (size_t head = 0; head < open.size(); ++head) {
+        const size_t i = static_cast<size_t>(open[head]);
+        forNeighbors(neighbors_, open[head], [&](uint32_t j) {
+            if (j >= static_cast<uint32_t>(particles.count)) return false;
+            const float way = depth[i] + length(particles.position[i].xyz() - particles.position[j].xyz());
+            if (particles.body[j] == body && way < depth[j]) depth[j] = way, open.push_back(static_cast<int>(j));
+            return true;
+        });
+    }
+    const float weight = length(Vec3{def.gravity.x, def.gravity.y, def.gravity.z});
+    for (int i = 0; i < particles.count; ++i) {
+        const size_t k = static_cast<size_t>(i);
+        if (particles.body[k] != body || !(particles.pressure[k] > 0)) continue;
+        const float density = materials[particles.material[k]].def.density;
+        particles.pressure[k] = std::min(particles.pressure[k], density * weight * depth[k]);
+    }
+}
+
 void World::fillMassArrays() {
     tasks.forBlocks(particles.count, kRowBlock, [&](int begin, int end, int, int) {
         for (int i = begin; i < end; ++i) {
@@ -578,6 +637,7 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
         refreshNeighbors();
         refreshExposure();
         if (anySolid) bonds_.bondAll(bondFrame(0));
+        boundStartPressure(static_cast<uint16_t>(slot));
     } catch (const std::bad_alloc&) {
         listsStale_ = true;
     }

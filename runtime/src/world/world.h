@@ -88,6 +88,7 @@ private:
     int subStepsWanted(float dt) const;
     void refreshNeighbors();
     void refreshExposure();
+    void boundStartPressure(uint16_t body);
     void fillMassArrays();
     MotionFrame motionFrame(float dt, int subSteps, const thawWork& work);
     HeatFrame heatFrame(double dt, const thawWork& work);

@@ -24,7 +24,7 @@ struct Suite {
 std::vector<Suite> suites() {
     return {{"motion",
              "liquids, solids and colliders at one step per frame",
-             {liquidCases(), impactCases(), colliderCases(), materialCases(), softCases(), rigidCases()}}};
+             {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases(), softCases(), rigidCases()}}};
 }
 
 struct Options {

@@ -44,6 +44,7 @@ CaseList liquidCases();
 CaseList colliderCases();
 CaseList materialCases();
 CaseList impactCases();
+CaseList filmCases();
 CaseList softCases();
 CaseList rigidCases();
 
