@@ -3,7 +3,7 @@
 #include "motion/motion.h"
 #include "motion/numbers.h"
 #include "motion/pairs.h"
-#include "motion/rigid.h"
+#include "motion/rigid_liquid.h"
 #include "motion/walls.h"
 
 #include <algorithm>
@@ -156,13 +156,12 @@ void sweep(const Obstacles& around, const Tally& tally, float spacing, float mas
 
 void Motion::move(const MotionFrame& f) {
     Particles& p = f.particles;
-    if (f.rigid) f.rigid->move(f);
-    if (p.moverCount == 0) return;
-    if (f.rigid)
-        for (int r = p.moverCount; r < p.count; ++r) {
-            const size_t i = static_cast<size_t>(r);
-            if (p.piece[i]) target_[i].setXyz(p.position[i].xyz());
-        }
+    if (f.rigid) f.rigid->decide(f);
+    if (p.moverCount == 0) {
+        if (f.rigid) f.rigid->advance(f);
+        return;
+    }
+    const float heldSpeed = f.rigid ? std::max(f.heldSpeed, f.rigid->fastest()) : f.heldSpeed;
 
     const Box nothing; // springs keep solids apart
     Box held;
@@ -191,7 +190,7 @@ void Motion::move(const MotionFrame& f) {
         WallFinder walls;
         walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, reach);
         const bool thin = thinWalls_ && !walls.empty();
-        const float sweepFrom = thin ? kThinStep : kSweepFrom, wallWay = walls.motion() + f.dt * f.heldSpeed;
+        const float sweepFrom = thin ? kThinStep : kSweepFrom, wallWay = walls.motion() + f.dt * heldSpeed;
         const Tally tally = tallyOf(block);
 
         for (int r = 8 * begin; r < last; ++r) {
@@ -203,8 +202,12 @@ void Motion::move(const MotionFrame& f) {
             if (!(dot(way, way) > far * far)) {
                 x += way;
             } else {
-                sweep(Obstacles{walls, f.neighbors, p, p.bondSlot[i] ? nothing : held, f.heldSpeed}, tally, spacing,
-                      p.velocity[i].w, thin, f.dt, x, v, reporting_ ? &heldKick_[i] : nullptr);
+                RigidLiquid::Near* piece = f.coupling ? f.coupling->near(i) : nullptr;
+                Vec4 kick;
+                sweep(Obstacles{walls, f.neighbors, p, p.bondSlot[i] ? nothing : held, heldSpeed}, tally, spacing,
+                      p.velocity[i].w, thin, f.dt, x, v, reporting_ || piece ? &kick : nullptr);
+                if (reporting_) heldKick_[i].setXyz(heldKick_[i].xyz() + kick.xyz());
+                if (piece) piece->impulse -= (p.velocity[i].w * piece->share) * kick.xyz();
                 p.velocity[i].setXyz(v);
             }
             target_[i] = {x.x, x.y, x.z, p.bondSlot[i] ? -p.position[i].w : p.position[i].w};
@@ -212,6 +215,14 @@ void Motion::move(const MotionFrame& f) {
         sums_[static_cast<size_t>(block)] = sums;
     });
     for (const BlockSums& s : sums_) stats_.velocityClamped |= s.a > 0;
+    if (f.rigid) {
+        if (f.coupling->any()) f.coupling->pushSwept(f);
+        f.rigid->advance(f);
+        for (int r = p.moverCount; r < p.count; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            if (p.piece[i]) target_[i].setXyz(p.position[i].xyz());
+        }
+    }
 
     const PairLists lists(f.neighbors);
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int block, int) {

@@ -88,8 +88,11 @@ public:
     void begin(const MotionFrame& f);
     // Between: velocities with what the liquid did so far.
     void settle(const MotionFrame& f);
-    // End of it: what the liquid did, gravity and contacts from the velocities of the start; positions.
-    void move(const MotionFrame& f);
+    // End of it: velocities by what the liquid did, gravity and contacts, from those of the start; what moves beside a
+    // piece is to see it where it was, with this velocity. Then its new place.
+    void decide(const MotionFrame& f);
+    void advance(const MotionFrame& f);
+    float fastest() const; // m/s, of any point of a piece at most
 
     // Adds to each reporting collider what pieces did to it in the last sub-step.
     void addImpulses(Collider* colliders) const;

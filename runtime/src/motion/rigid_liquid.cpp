@@ -276,6 +276,15 @@ void RigidLiquid::press(const MotionFrame& f, const Vec4* point) {
     }
 }
 
+void RigidLiquid::pushSwept(const MotionFrame& f) {
+    for (Near& n : near_) {
+        RigidPiece& b = rigid_->pieces()[n.piece - 1u];
+        if (!b.asleep && (n.impulse.x != 0 || n.impulse.y != 0 || n.impulse.z != 0))
+            b.push(wide(n.impulse), wide(f.particles.position[n.mover].xyz()));
+        n.impulse = {};
+    }
+}
+
 void RigidLiquid::settle(const MotionFrame& f) {
     for (Near& n : near_) {
         if (n.impulse.x == 0 && n.impulse.y == 0 && n.impulse.z == 0) continue;

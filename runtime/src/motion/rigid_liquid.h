@@ -58,6 +58,7 @@ public:
     void finish(const MotionFrame& f, bool sound);
 
     void press(const MotionFrame& f, const Vec4* point); // after a pressure iteration; w: its change, Pa
+    void pushSwept(const MotionFrame& f);                // gives the pieces what stopping fast movers took
     void settle(const MotionFrame& f);                   // hands over what holding out took; contacts, velocities
 
 private:

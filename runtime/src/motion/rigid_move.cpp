@@ -98,7 +98,7 @@ void Rigid::settle(const MotionFrame& f) {
     setVelocities(f);
 }
 
-void Rigid::move(const MotionFrame& f) {
+void Rigid::decide(const MotionFrame& f) {
     if (!any()) return;
     const double dt = f.dt;
     kick(f);
@@ -111,6 +111,13 @@ void Rigid::move(const MotionFrame& f) {
         if (awake(s)) followWalls(f, s);
     for (uint32_t s = 0; s < slots; ++s)
         if (awake(s)) followSolids(f, s);
+    setVelocities(f);
+}
+
+void Rigid::advance(const MotionFrame& f) {
+    if (!any()) return;
+    const double dt = f.dt;
+    const uint32_t slots = static_cast<uint32_t>(pieces_.size());
     for (uint32_t s = 0; s < slots; ++s)
         if (awake(s)) integrate(f, s);
     solve(kSweepsAfter, dt, false);

@@ -26,6 +26,13 @@ bool Rigid::moving() const {
     return false;
 }
 
+float Rigid::fastest() const {
+    double most = 0;
+    for (const RigidPiece& b : pieces_)
+        if (b.alive && !b.asleep) most = std::max(most, b.reach());
+    return static_cast<float>(most);
+}
+
 int Rigid::awakeRows() const {
     int n = 0;
     for (const RigidPiece& b : pieces_)
