@@ -357,7 +357,7 @@ void damPush(Findings& found) {
 
 // A rod of three blocks of a hard material, joined by two of one that is liquid: cut twice while it flies and turns.
 void splitTwice(Findings& found) {
-    Lab lab(0.004f, 4000, {0, -9.81f, 0}, 20);
+    Lab lab(0.004f, 4000, {0, -9.81f, 0}, 40);
     thawMaterialDef hard = Lab::plain(900, 1), early = Lab::plain(900, 0.1f), late = early;
     hard.solidus = 500, hard.liquidus = 510;
     early.solidus = 295, early.liquidus = 296, late.solidus = 310, late.liquidus = 311;
