@@ -157,7 +157,8 @@ TEST_CASE("wrong command lines are refused") {
     checkRefused({"run", scene, "--seconds=-1"}, "--seconds: must be in 0.01..3600 s, got -1");
     checkRefused({"run", scene, "--budget-ms", "1e9"}, "--budget-ms: must be in 0.05..10000 ms, got 1000000000");
     checkRefused({"run", scene, "--threads", "0"}, "--threads: must be in 1..64, got 0");
-    checkRefused({"run", scene, "--work", "1,2"}, "--work: must be 3 numbers, got 2");
+    checkRefused({"run", scene, "--work", "1,2"}, "--work: must be 3 to 4 numbers, got 2");
+    checkRefused({"run", scene, "--work", "4,4,12,17"}, "--work least sub-steps: must be in 1..16, got 17");
     checkRefused({"run", scene, "--work", "99,2,3"}, "--work sub-steps: must be in 1..16, got 99");
     checkRefused({"run", scene, "--work", "a,b,c"}, "--work: must be numbers");
     checkRefused({"run", scene, "--work", "1,2,3", "--budget-ms", "4"}, "--work");
