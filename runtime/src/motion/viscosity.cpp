@@ -23,6 +23,9 @@ constexpr float kLeastGravity = 1; // m/s^2, for that measure where there is non
 // Of a block born liquid in a tank, 0.02 / 0.3 Pa s, 12 spacings deep, the worst mean compression is 5.6 / 5.4 % with
 // 0.8, 3.9 / 3.7 % with 0.9 (7.9 / 7.8 % with 0.6): pressure has to take over from viscosity while it fades.
 constexpr float kSofteningLog = -0.105360516f; // ln 0.9
+// Where less than this many spacings of liquid press on it, it has nothing to wait for: melt on a face of wax would
+// creep for half a second before it runs.
+constexpr float kShallow = 4, kShallowSofteningLog = -0.223143551f; // ln 0.8
 // Stiff is a viscosity above so many rho dx^2 / dt.
 constexpr float kStiffFrom = 10;
 // How much thicker or thinner a melt with a yield stress gets in a step, and the share of the lattice's neighbours that
@@ -142,7 +145,7 @@ void Motion::viscosity(const MotionFrame& f) {
     // start that strains something stiff comes out as speed: a crumb of 1e4 Pa s that had just been cut loose and
     // touched something held got 1.2 m/s out of one frame of gravity. Of a bunny that melts, 15 s, 15 particles passed
     // 0.7 m/s, the fastest 1.7 m/s; with the velocity before for all that move 9 and 1.22, all of them drops in free
-    // fall. But not for all: columns of 0.3 m then end with 1.2 and 2.2 % mean density error instead of 0.2 and 0.7.
+    // fall.
     const float foldTime = pressureFold(f.subSteps) * f.dt;
     forMovers([&](int begin, int end, int last, BlockSums& sums) {
         for (int r = 8 * begin; r < last; ++r) {
@@ -329,13 +332,17 @@ void Motion::viscosity(const MotionFrame& f) {
         for (int m = 0; m < 256; ++m) yielding |= used[m] && f.materials[m].def.yieldStress > 0;
     }
     if (yielding) thicken(f);
-    const float soften = detExp(kSofteningLog / static_cast<float>(std::max(1, f.subSteps)));
+    const float share = 1 / static_cast<float>(std::max(1, f.subSteps));
+    const float deepSoften = detExp(share * kSofteningLog), shallowSoften = detExp(share * kShallowSofteningLog);
+    const float shallow = kShallow * length(f.gravity) / kSupport; // Pa, times density and support
     forMovers([&](int begin, int, int last, BlockSums&) {
         for (int r = 8 * begin; r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
             if (!sound) p.velocity[i] = before_[i];
             const Vec3 change = p.velocity[i].xyz() - before_[i].xyz();
             const bool yields = yielding && f.materials[p.material[i]].def.yieldStress > 0;
+            const float soften =
+                p.pressure[i] * f.invDensity[i] > shallow * p.position[i].w ? deepSoften : shallowSoften;
             p.velocityChange[i] = {change.x, change.y, change.z, yields ? image_[i].x : soften * p.velocityChange[i].w};
             if (touches(i) && !gripped(i)) holdAtWalls(f, i);
         }
