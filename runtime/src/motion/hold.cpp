@@ -201,17 +201,23 @@ void Hold::pressurize(const HoldFrame& f) {
     for (size_t k = 0; k < queue_.size(); ++k) {
         const uint32_t i = queue_[k];
         const Material& m = f.materials[p.material[i]];
-        float sum = 0;
+        // A film that runs down what is held weighs on that, not on its own lower end: no more than from the open air
+        // to here.
+        const Vec3 x = p.position[i].xyz();
+        const float half = 0.5f * p.position[i].w / kSupport;
+        float sum = 0, open = p.flags[i] & kSurface ? half : INFINITY;
         int above = 0;
         forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
             if (j >= static_cast<uint32_t>(p.count)) return true;
+            if (p.flags[j] & kSurface) open = std::min(open, half + length(p.position[j].xyz() - x));
             const float below = height(j) - height(i);
             if (!(below > 0)) return true;
             ++above;
             if (!(p.flags[j] & kFixed)) sum += p.pressure[j] + m.def.density * below;
             return true;
         });
-        const float pressure = above > 0 ? sum / static_cast<float>(above) : 0.0f;
+        const float column = above > 0 ? sum / static_cast<float>(above) : 0.0f;
+        const float pressure = std::min(column, m.def.density * length(f.gravity) * open);
         p.pressure[i] = pressure;
         p.velocityChange[i].w =
             stiffStart(m.viscosity(p.liquidFraction[i]), m.def.density, p.position[i].w / kSupport, pressure);
