@@ -429,9 +429,9 @@ typedef enum thawParticleFlags {
 typedef struct thawParticleView {
     int32_t count;
     int32_t moving; /* the first `moving` rows flowed in the last step; the rest was held, or rigid; flags are newer */
-    const float* positions;    /* x y z r: m; r is the radius of the particle's sphere of influence for drawing */
-    const float* velocities;   /* x y z m: m/s, and mass in kg */
-    const float* temperatures; /* K */
+    const float* positions;       /* x y z r: m; r is the radius of the particle's sphere of influence for drawing */
+    const float* velocities;      /* x y z m: m/s, and mass in kg */
+    const float* temperatures;    /* K */
     const float* liquidFractions; /* 0..1 */
     const float* normals;         /* x y z a: outward unit normal and exposed area in m^2; zero inside */
     const uint32_t* ids;          /* stable, never used twice in a world */
@@ -489,7 +489,7 @@ THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);
 
 typedef struct thawCounters {
     int32_t particles, moving, fixed, surface, capacity; /* moving: liquid, and rigid pieces that are awake */
-    int32_t pieces; /* rigid ones, awake or asleep */
+    int32_t pieces;                                      /* rigid ones, awake or asleep */
     int32_t bodies, colliders, heatSources, materials;
     int32_t subSteps, pressureIterations, viscosityIterations; /* of the last step; iterations summed over sub-steps */
     int32_t rays, neighborsMax;

@@ -16,8 +16,8 @@ float latticeSum();
 // Shear moment of the projected pairwise viscosity on that lattice, as a share of nominal (0.7408): mu is divided by
 // it.
 float shearMoment();
-// Sum of V (-W'/r) r^4 / (r^2 + 0.01 h^2) on that lattice, whatever the spacing: how many neighbours there are to tell a
-// shear rate from.
+// Sum of V (-W'/r) r^4 / (r^2 + 0.01 h^2) on that lattice, whatever the spacing: how many neighbours there are to tell
+// a shear rate from.
 float strainMoment();
 // Jacobi coefficient 1 / sum |grad C|^2 of an interior particle, for spacing 1 and density 1. Times rho dx^2 for
 // others.
