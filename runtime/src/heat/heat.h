@@ -3,45 +3,11 @@
 #pragma once
 
 #include "base/memory.h"
-#include "base/tasks.h"
-#include "geometry/colliders.h"
-#include "neighbors/neighbors.h"
-#include "particles/material.h"
-#include "particles/particles.h"
+#include "heat/frame.h"
 
 #include <memory>
 
 namespace thaw {
-
-struct HeatSource {
-    Vec3 position;
-    float power = 0, radius = 0; // W, m
-    bool enabled = false, alive = false;
-};
-
-struct HeatFrame {
-    Particles& particles;
-    const Neighbors& neighbors;
-    const float* volume; // per row, m^3, padded
-    const Material* materials;
-    const Collider* colliders;
-    int colliderCount;
-    uint64_t colliderVersion; // changes when a collider is made or destroyed
-    const HeatSource* sources;
-    int sourceCount;
-    Tasks& tasks;
-    double dt;        // s of heat time: step * thermalTimeScale * heatInterval
-    float ambient;    // K
-    float convection; // W/(m^2 K)
-    float spacing;    // m
-    float rayRefresh; // share of the exposed particles whose rays are cast anew
-};
-
-struct HeatStats {
-    double absorbed = 0, emitted = 0, convected = 0; // J in this step; emitted and convected are losses
-    int rays = 0;
-    bool raysReduced = false;
-};
 
 // Heat of one step. Each call is one stage, any but the last may be left out, in this order. Conduction and the
 // exchange with the surroundings change the enthalpies one after the other (each monotone at any dt); what changed is

@@ -29,9 +29,9 @@ enum ParticleFlag : uint8_t {
     X(float, liquidFraction) /* 0..1, from enthalpy */                                                                 \
     X(float, pressure)       /* Pa, warm start of the next step */                                                     \
     X(float, stiffness)      /* Jacobi coefficient of the last step, 0 when there was none */                          \
-    X(float,                                                                                                           \
-      rayMemory)    /* memory of the last rays, see heat.cpp: age, and one bit per source that was seen; 0 unknown */  \
-    X(uint32_t, id) /* stable, never reused */                                                                         \
+    X(float, rayMemory)   /* memory of the last rays, see radiation.cpp: age, and one bit per source that was seen; 0  \
+                             unknown */                                                                                \
+    X(uint32_t, id)       /* stable, never reused */                                                                   \
     X(uint32_t, bondSlot) /* where its bonds are (Bonds), 0 none */                                                    \
     X(uint16_t, body)                                                                                                  \
     X(uint16_t, piece)  /* rigid piece that a fixed row is part of, its slot + 1; 0: held, or a mover */               \

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/tasks.h"
+#include "geometry/colliders.h"
+#include "neighbors/neighbors.h"
+#include "particles/material.h"
+#include "particles/particles.h"
+
+namespace thaw {
+
+struct HeatSource {
+    Vec3 position;
+    float power = 0, radius = 0; // W, m
+    bool enabled = false, alive = false;
+};
+
+struct HeatFrame {
+    Particles& particles;
+    const Neighbors& neighbors;
+    const float* volume; // per row, m^3, padded
+    const Material* materials;
+    const Collider* colliders;
+    int colliderCount;
+    uint64_t colliderVersion; // changes when a collider is made or destroyed
+    const HeatSource* sources;
+    int sourceCount;
+    Tasks& tasks;
+    double dt;        // s of heat time: step * thermalTimeScale * heatInterval
+    float ambient;    // K
+    float convection; // W/(m^2 K)
+    float spacing;    // m
+    float rayRefresh; // share of the exposed particles whose rays are cast anew
+};
+
+struct HeatStats {
+    double absorbed = 0, emitted = 0, convected = 0; // J in this step; emitted and convected are losses
+    int rays = 0;
+    bool raysReduced = false;
+};
+
+} // namespace thaw
