@@ -125,6 +125,34 @@ TEST_CASE("world: same plan, same state hash with 1, 2 and 4 threads and with th
     CHECK(thawWorld_GetStateHash(f.world) == expected[0]);
 }
 
+TEST_CASE("world: an elastic solid that melts has the same state hash with 1, 2, 3 and 4 threads") {
+    // Softening and letting go read what neighbours in other blocks write.
+    WorldFixture f[4];
+    for (int n = 0; n < 4; ++n) {
+        WorldFixture& w = f[n];
+        w.def.tasks.workerCount = n + 1;
+        w.def.particleSpacing = 0.004f, w.def.thermalTimeScale = 40;
+        w.create();
+        thawMaterialDef m;
+        thawInitMaterialDef(&m, thawMaterial_wax);
+        m.density = 1000, m.solidus = 300, m.liquidus = 310;
+        m.viscositySolid = 1e3f, m.viscosityLiquid = 0.05f, m.youngModulus = 1e5f;
+        w.addMaterial(m);
+        w.addFloor();
+        w.addBox({-0.024f, 0, -0.024f}, {0.024f, 0.056f, 0.024f}, 298);
+        w.addSource({0.06f, 0.045f, 0}, 480);
+    }
+    for (int i = 0; i < 240; ++i) {
+        f[0].step();
+        for (int n = 1; n < 4; ++n) {
+            f[n].step();
+            REQUIRE(thawWorld_GetStateHash(f[n].world) == thawWorld_GetStateHash(f[0].world));
+        }
+    }
+    CHECK(f[0].counters().meltedFraction > 0.02f);
+    CHECK(f[0].counters().particles > 1500);
+}
+
 TEST_CASE("world: the governor's plan, fed back as work units, gives the same bits") {
     WorldFixture a, b;
     a.budget.mode = thawBudget_milliseconds, a.budget.milliseconds = 0.4f;

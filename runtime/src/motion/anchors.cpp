@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "motion/anchors.h"
 
-#include "base/kernel.h"
 #include "motion/carry.h"
+#include "motion/links.h"
 
 namespace thaw {
 namespace {
 
-// As Hold: links, and how near a wall is one to hang on; spacings.
-constexpr float kLink = 1.5f, kAnchor = 1.0f;
 // A particle of a piece stands half a spacing off what it lies on and a spacing off its neighbours; nearer than this,
 // what comes nearer still presses.
 constexpr float kPressWall = 0.4f, kPressHeld = 0.8f;
@@ -20,13 +18,6 @@ Vec3 motionOf(const AnchorFrame& f, uint16_t anchor, Vec3 x) {
     const int c = static_cast<int>(anchor) - 1;
     if (c < 0 || c >= f.colliderCount || !f.colliders[c].moves) return {};
     return f.colliders[c].displacement(x);
-}
-
-bool linked(const Particles& p, uint32_t i, uint32_t j) {
-    const Vec4 x = p.position[i], y = p.position[j];
-    const float reach = kLink * 0.5f * (x.w + y.w) / kSupport;
-    const Vec3 d = y.xyz() - x.xyz();
-    return dot(d, d) < reach * reach;
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "motion/bond_pass.h"
 #include "motion/bonds.h"
 #include "motion/hold.h"
+#include "motion/links.h"
 #include "motion/numbers.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@ namespace {
 
 // Spacings: what sets lies as near to a solid as this, and moves against it by less than so much a step.
 constexpr float kTouch = 1.25f, kDrift = 0.1f;
-// Spacings from a wall: what a body made there hangs on.
-constexpr float kAnchor = 1.0f;
 // In spacings a step, for so many steps, and with less than this share of its weight unbalanced: then it sleeps. It
 // wakes with more than kUnrest unbalanced.
 constexpr float kCalm = 3e-4f;
@@ -138,6 +137,12 @@ Vec3 Bonds::imbalance(const BondFrame& f, uint32_t row) const {
 void Bonds::settle(const BondFrame& f, BondResult& result) {
     Particles& p = f.particles;
     const float weight = std::max(length(f.gravity), kLeastGravity);
+    // All of them first: what follows reads those of neighbours in other blocks.
+    f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
+        for (int r = begin; r < end; ++r)
+            if (const uint32_t slot = p.bondSlot[static_cast<size_t>(r)])
+                fill_[slot] += kFillRate * (fillGoal_[slot] - fill_[slot]);
+    });
     f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
         WallFinder walls;
         bool gathered = false;
@@ -155,7 +160,6 @@ void Bonds::settle(const BondFrame& f, BondResult& result) {
             state_[i] = kStay;
             if (!slot) continue;
             const Material& m = f.materials[p.material[i]];
-            fill_[slot] += kFillRate * (fillGoal_[slot] - fill_[slot]);
             if ((p.flags[i] & kFixed) && (p.flags[i] & kAsleep)) {
                 if (calm_[slot] == kNewborn) {
                     bool near = false;

@@ -4,6 +4,7 @@
 
 #include "base/kernel.h"
 #include "motion/carry.h"
+#include "motion/links.h"
 #include "motion/numbers.h"
 #include "motion/rigid_numbers.h"
 
@@ -12,14 +13,11 @@
 namespace thaw {
 namespace {
 
-// Touching: the 18 nearest of a cubic lattice (1.41 spacings) are links, the 8 body diagonals (1.73) are not.
-constexpr float kLink = 1.5f;
 // What sets lies against something: a neighbour of the lattice, or a wall that it stands half a spacing off.
 constexpr float kTouch = 1.25f, kWallTouch = 0.8f;
 // What has come to rest sets from farther away: as stiff as it is by then, the drag of wall and neighbours stops it
 // short.
 constexpr float kRestTouch = 1.75f, kRestWallTouch = 1.5f;
-constexpr float kAnchor = 1.0f;
 // In spacings a step. Nothing sets in flight.
 constexpr float kSlow = 0.3f, kRest = 1e-3f;
 
@@ -29,13 +27,6 @@ bool nearWall(const WallFinder& walls, Vec3 p, float reach) {
     bool near = false;
     walls.forNear(p, reach, [&](float distance, Vec3, const Collider&) { near |= distance < reach; });
     return near;
-}
-
-bool touching(const Particles& p, uint32_t i, uint32_t j) {
-    const Vec4 x = p.position[i], y = p.position[j];
-    const float reach = kLink * 0.5f * (x.w + y.w) / kSupport;
-    const Vec3 d = y.xyz() - x.xyz();
-    return dot(d, d) < reach * reach;
 }
 
 } // namespace
@@ -135,13 +126,12 @@ HoldResult Hold::decide(const HoldFrame& f, int begin, int end) {
 // Marks in state_ every row that is held: fixed, of no rigid piece, and hanging together with a collider.
 void Hold::reach(const HoldFrame& f) {
     const Particles& p = f.particles;
-    const auto linked = [&](uint32_t i, uint32_t j) { return touching(p, i, j); };
     const auto reached = [&](uint32_t i) {
         // The row before is mostly a neighbour, and at hand.
-        if (i > 0 && state_[i - 1] == kReached && linked(i - 1, i)) return true;
+        if (i > 0 && state_[i - 1] == kReached && linked(p, i - 1, i)) return true;
         bool found = false;
         forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
-            found = j < static_cast<uint32_t>(p.count) && state_[j] == kReached && linked(i, j);
+            found = j < static_cast<uint32_t>(p.count) && state_[j] == kReached && linked(p, i, j);
             return !found;
         });
         return found;
@@ -180,7 +170,7 @@ void Hold::reach(const HoldFrame& f) {
             queue_.resizeRaw(queue_.size() - 1);
             forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
                 if (j < static_cast<uint32_t>(p.count) && state_[j] != kReached && (p.flags[j] & kFixed) &&
-                    !p.piece[j] && linked(i, j))
+                    !p.piece[j] && linked(p, i, j))
                     state_[j] = kReached, queue_.push(j);
                 return true;
             });
@@ -260,7 +250,7 @@ int Hold::separate(const HoldFrame& f, uint16_t piece) {
         for (size_t head = 0; head < queue_.size(); ++head) {
             const uint32_t i = queue_[head];
             forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
-                if (j < n && open(j) && touching(p, i, j)) state_[j] = kReached, queue_.push(j);
+                if (j < n && open(j) && linked(p, i, j)) state_[j] = kReached, queue_.push(j);
                 return true;
             });
         }

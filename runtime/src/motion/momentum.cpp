@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/kernel.h"
 #include "motion/motion.h"
+#include "motion/rigid_math.h"
 
 #include <cmath>
 
@@ -124,7 +125,7 @@ void Motion::moveRigidly(const MotionFrame& f, const uint32_t* rows, size_t size
         center[0] += m * x.x, center[1] += m * x.y, center[2] += m * x.z;
     }
     for (double& c : center) c /= mass;
-    // Upper triangle of the matrix of the six motions, and their right side. Each particle has the inertia of a cube,
+    // Lower triangle of the matrix of the six motions, and their right side. Each particle has the inertia of a cube,
     // so that a pair and a thread have one too.
     double A[6][6] = {}, b[6] = {};
     for (size_t n = 0; n < size; ++n) {
@@ -156,31 +157,15 @@ void Motion::moveRigidly(const MotionFrame& f, const uint32_t* rows, size_t size
         for (int s = 0; s < 3; ++s)
             for (int t = 0; t < 6; ++t) DR[s][t] = D[s][0] * R[0][t] + D[s][1] * R[1][t] + D[s][2] * R[2][t];
         for (int s = 0; s < 6; ++s) {
-            for (int t = s; t < 6; ++t) A[s][t] += R[0][s] * DR[0][t] + R[1][s] * DR[1][t] + R[2][s] * DR[2][t];
+            for (int t = s; t < 6; ++t) A[t][s] += R[0][s] * DR[0][t] + R[1][s] * DR[1][t] + R[2][s] * DR[2][t];
             b[s] += R[0][s] * r[0] + R[1][s] * r[1] + R[2][s] * r[2];
         }
         for (int s = 3; s < 6; ++s) A[s][s] += m * edge * edge / 6;
     }
-    // Cholesky; positive, for every particle has mass and inertia.
-    double L[6][6] = {}, y[6];
-    for (int s = 0; s < 6; ++s)
-        for (int t = s; t < 6; ++t) {
-            double sum = A[s][t];
-            for (int k = 0; k < s; ++k) sum -= L[s][k] * L[t][k];
-            if (t == s && !(sum > 0)) return;
-            L[t][s] = t == s ? std::sqrt(sum) : sum / L[s][s];
-        }
-    for (int s = 0; s < 6; ++s) {
-        y[s] = b[s];
-        for (int k = 0; k < s; ++k) y[s] -= L[s][k] * y[k];
-        y[s] /= L[s][s];
-    }
-    for (int s = 5; s >= 0; --s) {
-        for (int k = s + 1; k < 6; ++k) y[s] -= L[k][s] * y[k];
-        y[s] /= L[s][s];
-    }
-    const Vec3 drift{static_cast<float>(y[0]), static_cast<float>(y[1]), static_cast<float>(y[2])};
-    const Vec3 spin{static_cast<float>(y[3]), static_cast<float>(y[4]), static_cast<float>(y[5])};
+    if (!factorise(A)) return;
+    solve(A, b);
+    const Vec3 drift{static_cast<float>(b[0]), static_cast<float>(b[1]), static_cast<float>(b[2])};
+    const Vec3 spin{static_cast<float>(b[3]), static_cast<float>(b[4]), static_cast<float>(b[5])};
     for (size_t n = 0; n < size; ++n) {
         const size_t i = rows[n];
         const Vec3 d{static_cast<float>(p.position[i].x - center[0]), static_cast<float>(p.position[i].y - center[1]),

@@ -106,17 +106,17 @@ void Motion::begin(const MotionFrame& f) {
 
     colliderBounds_.resizeRaw(static_cast<size_t>(f.colliderCount));
     reportSlot_.resizeRaw(static_cast<size_t>(f.colliderCount));
-    int reporters = 0;
+    reporters_ = 0;
     wallsMove_ = thinWalls_ = slippery_ = false;
     for (int c = 0; c < f.colliderCount; ++c) {
         const Collider& o = f.colliders[c];
-        reportSlot_[static_cast<size_t>(c)] = o.alive && o.report ? reporters++ : -1;
+        reportSlot_[static_cast<size_t>(c)] = o.alive && o.report ? static_cast<int32_t>(reporters_++) : -1;
         if (!o.alive) continue;
         colliderBounds_[static_cast<size_t>(c)] = o.sweptBounds();
         wallsMove_ |= o.moves, slippery_ |= o.slipLength > 0, thinWalls_ |= o.halfThickness() < kThinWall * f.spacing;
     }
-    reporting_ = reporters > 0;
-    reports_.assign(sums_.size() * static_cast<size_t>(reporters), {});
+    reporting_ = reporters_ > 0;
+    reports_.assign(sums_.size() * reporters_, {});
     if (reporting_) kick_.assign(movers * kContacts, {}), heldKick_.assign(movers, {});
     if (reporting_ || wallsMove_ || slippery_)
         contactOf_.resizeRaw(movers * kContacts), contactSlope_.resizeRaw(movers * kContacts);

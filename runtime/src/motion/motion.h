@@ -83,6 +83,8 @@ private:
     void land(const MotionFrame& f);
     void holdAtWalls(const MotionFrame& f, size_t i);
     void meetMovingWalls(const MotionFrame& f);
+    bool reports(const MotionFrame& f, uint16_t anchor) const;
+    void report(const MotionFrame& f, int block, uint16_t anchor, Vec3 x, float mass, Vec3 change);
     template <class F> void forHeldPairs(const MotionFrame& f, F&& change);
     void reportHeldDrag(const MotionFrame& f);
     void reportHeldPush(const MotionFrame& f);
@@ -116,6 +118,7 @@ private:
     };
 
     MotionStats stats_;
+    size_t reporters_ = 0; // colliders that report
     bool wallsMove_ = false, reporting_ = false, thinWalls_ = false, heldMoves_ = false, slippery_ = false;
     Array<Box> colliderBounds_;
     Array<Vec4> contact_;            // kContacts per mover: xyz outward normal, w distance in m; nearest first

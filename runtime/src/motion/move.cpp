@@ -167,11 +167,9 @@ void Motion::move(const MotionFrame& f) {
     Box held;
     for (int r = p.moverCount; r < p.count; ++r) held.grow(p.position[static_cast<size_t>(r)].xyz());
     const float limit = std::max(kSpeedLimit, kSpeedLimitSpacings * f.spacing / f.dt);
-    size_t reporters = 0;
-    for (const int32_t slot : reportSlot_) reporters += slot >= 0;
     const auto tallyOf = [&](int block) {
         return Tally{f.colliders, reporting_ ? reportSlot_.data() : nullptr,
-                     reporting_ ? &reports_[static_cast<size_t>(block) * reporters] : nullptr};
+                     reporting_ ? &reports_[static_cast<size_t>(block) * reporters_] : nullptr};
     };
 
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int block, int) {

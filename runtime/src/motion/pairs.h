@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/kernel.h"
 #include "base/types.h"
 #include "neighbors/neighbors.h"
 
 // The loops over neighbour pairs of the motion solve. Each handles the groups [begin, end) of 8 rows and writes to
 // those rows only; what it writes for rows that do not move is masked to zero or meaningless, as said.
 namespace thaw {
+
+// Cohesion of a pair, from one spacing to the support: this times (r - d)(h - r) / h^2 is 1 at its largest.
+inline constexpr float kCohesionPeak = 4 / ((1 - 1 / kSupport) * (1 - 1 / kSupport));
 
 struct PairLists {
     const uint32_t* entries;

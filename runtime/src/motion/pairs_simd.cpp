@@ -50,13 +50,12 @@ template <bool kCohesive> HWY_INLINE void forceRows(const ForcePass& p, const Sp
 
         if (kCohesive) {
             // None up to one spacing, none at the support, largest (1) between.
-            constexpr float kPeak = 4 / ((1 - 1 / kSupport) * (1 - 1 / kSupport));
             const F32 r = hn::Sqrt(r2), d = hn::Mul(all(1 / kSupport), h);
             const Mask between = hn::And(hn::Lt(d, r), hn::Lt(r, h));
             const F32 both = hn::Mul(ti.z, tj.z);
             const F32 mass = hn::IfThenElse(fixed, ti.z, hn::Add(both, both));
             const F32 sum = hn::IfThenElse(fixed, all(1), hn::Add(ti.z, tj.z));
-            const F32 shape = hn::Mul(hn::Mul(hn::Sub(r, d), hn::Sub(h, r)), all(-0.5f * kPeak));
+            const F32 shape = hn::Mul(hn::Mul(hn::Sub(r, d), hn::Sub(h, r)), all(-0.5f * kCohesionPeak));
             const F32 top = hn::Mul(hn::Mul(shape, mass), hn::Add(ti.y, tj.y));
             const F32 f = hn::IfThenElseZero(between, hn::Div(top, hn::Mul(hn::Mul(h2, r), sum)));
             cx = hn::MulAdd(f, x, cx), cy = hn::MulAdd(f, y, cy), cz = hn::MulAdd(f, z, cz);

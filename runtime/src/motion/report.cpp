@@ -15,12 +15,10 @@
 namespace thaw {
 
 void Motion::addImpulses(Collider* colliders, int colliderCount) const {
-    size_t reporters = 0;
-    for (int c = 0; c < colliderCount; ++c) reporters += reportSlot_[static_cast<size_t>(c)] >= 0;
     for (int c = 0; c < colliderCount; ++c) {
         const int32_t slot = reportSlot_[static_cast<size_t>(c)];
         if (slot < 0) continue;
-        for (size_t b = static_cast<size_t>(slot); b < reports_.size(); b += reporters)
+        for (size_t b = static_cast<size_t>(slot); b < reports_.size(); b += reporters_)
             for (int k = 0; k < 3; ++k) {
                 // The blocks hold what the movers felt.
                 colliders[c].impulse[k] -= reports_[b].linear[k];
@@ -29,13 +27,19 @@ void Motion::addImpulses(Collider* colliders, int colliderCount) const {
     }
 }
 
+bool Motion::reports(const MotionFrame& f, uint16_t anchor) const {
+    return anchor > 0 && anchor <= f.colliderCount && reportSlot_[anchor - 1u] >= 0;
+}
+
+void Motion::report(const MotionFrame& f, int block, uint16_t anchor, Vec3 x, float mass, Vec3 change) {
+    const size_t slot = static_cast<size_t>(block) * reporters_ + static_cast<size_t>(reportSlot_[anchor - 1u]);
+    reports_[slot].add(x - f.colliders[anchor - 1].transform.position, mass, change);
+}
+
 template <class F> void Motion::forHeldPairs(const MotionFrame& f, F&& change) {
     const Particles& p = f.particles;
     if (!reporting_ || p.moverCount == p.count) return;
-    size_t reporters = 0;
-    for (const int32_t slot : reportSlot_) reporters += slot >= 0;
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int block, int) {
-        ImpulseSums* sums = &reports_[static_cast<size_t>(block) * reporters];
         for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
             const uint32_t g = static_cast<uint32_t>(r) >> 3;
@@ -44,11 +48,9 @@ template <class F> void Motion::forHeldPairs(const MotionFrame& f, F&& change) {
                 const size_t entry = first + 8 * static_cast<size_t>(k);
                 const uint32_t j = f.neighbors.entries[entry] >> 4;
                 if (j < static_cast<uint32_t>(p.moverCount) || j >= static_cast<uint32_t>(p.count)) continue;
-                const int c = static_cast<int>(p.anchor[j]) - 1;
-                if (c < 0 || c >= f.colliderCount || reportSlot_[static_cast<size_t>(c)] < 0) continue;
-                const Vec3 x{point_[i].x, point_[i].y, point_[i].z}, y{point_[j].x, point_[j].y, point_[j].z};
-                sums[reportSlot_[static_cast<size_t>(c)]].add(x - f.colliders[c].transform.position, p.velocity[i].w,
-                                                              change(i, j, entry, x - y));
+                if (!reports(f, p.anchor[j])) continue;
+                const Vec3 x = point_[i].xyz(), y = point_[j].xyz();
+                report(f, block, p.anchor[j], x, p.velocity[i].w, change(i, j, entry, x - y));
             }
         }
     });
@@ -69,8 +71,7 @@ void Motion::reportHeldPush(const MotionFrame& f) {
         float push = -f.dt * f.invDensity[i] * (p.pressure[i] + trait_[j].w) * f.neighbors.gradient[entry];
         const float h = 0.5f * (p.position[i].w + p.position[j].w), r = length(x), d = h / kSupport;
         if (r > d && r < h) {
-            constexpr float kPeak = 4 / ((1 - 1 / kSupport) * (1 - 1 / kSupport));
-            push -= f.dt * 0.5f * kPeak * (r - d) * (h - r) * (trait_[i].y + trait_[j].y) / (h * h * r);
+            push -= f.dt * 0.5f * kCohesionPeak * (r - d) * (h - r) * (trait_[i].y + trait_[j].y) / (h * h * r);
         }
         return push * x;
     });
@@ -80,26 +81,20 @@ void Motion::reportHeldPush(const MotionFrame& f) {
 void Motion::reportHeldKicks(const MotionFrame& f) {
     const Particles& p = f.particles;
     if (!reporting_ || p.moverCount == p.count) return;
-    size_t reporters = 0;
-    for (const int32_t slot : reportSlot_) reporters += slot >= 0;
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int block, int) {
-        ImpulseSums* sums = &reports_[static_cast<size_t>(block) * reporters];
         for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
-            const Vec3 kicked = heldKick_[i].xyz(), x{point_[i].x, point_[i].y, point_[i].z};
+            const Vec3 kicked = heldKick_[i].xyz(), x = point_[i].xyz();
             if (!(dot(kicked, kicked) > 0)) continue;
             float nearest = INFINITY;
             uint16_t anchor = 0;
             forNeighbors(f.neighbors, r, [&](uint32_t j) {
                 if (j < static_cast<uint32_t>(p.moverCount) || j >= static_cast<uint32_t>(p.count)) return true;
-                const Vec3 d = x - Vec3{point_[j].x, point_[j].y, point_[j].z};
+                const Vec3 d = x - point_[j].xyz();
                 if (dot(d, d) < nearest) nearest = dot(d, d), anchor = p.anchor[j];
                 return true;
             });
-            const int c = static_cast<int>(anchor) - 1;
-            if (c < 0 || c >= f.colliderCount || reportSlot_[static_cast<size_t>(c)] < 0) continue;
-            sums[reportSlot_[static_cast<size_t>(c)]].add(x - f.colliders[c].transform.position, p.velocity[i].w,
-                                                          kicked);
+            if (reports(f, anchor)) report(f, block, anchor, x, p.velocity[i].w, kicked);
         }
     });
 }

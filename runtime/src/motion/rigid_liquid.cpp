@@ -123,25 +123,13 @@ void RigidLiquid::factorise(const MotionFrame& f, Unknown& u) {
         for (int r = 0; r < 6; ++r)
             for (int c = 0; c <= r; ++c) a[r][c] += static_cast<double>(q.coefficient) * g[r] * g[c];
     }
-    for (int r = 0; r < 6; ++r)
-        for (int c = 0; c <= r; ++c) {
-            double z = a[r][c];
-            for (int k = 0; k < c; ++k) z -= a[r][k] * a[c][k];
-            a[r][c] = r == c ? std::sqrt(z) : z / a[c][c];
-        }
+    thaw::factorise(a); // positive, for the piece has mass
 }
 
 RigidLiquid::Six RigidLiquid::precondition(const Unknown& u) {
     const Six& r = u.residual;
     double g[6] = {r.linear.x, r.linear.y, r.linear.z, r.angular.x, r.angular.y, r.angular.z};
-    for (int q = 0; q < 6; ++q) {
-        for (int k = 0; k < q; ++k) g[q] -= u.factor[q][k] * g[k];
-        g[q] /= u.factor[q][q];
-    }
-    for (int q = 5; q >= 0; --q) {
-        for (int k = q + 1; k < 6; ++k) g[q] -= u.factor[k][q] * g[k];
-        g[q] /= u.factor[q][q];
-    }
+    solve(u.factor, g);
     return {{g[0], g[1], g[2]}, {g[3], g[4], g[5]}};
 }
 
@@ -175,6 +163,18 @@ void RigidLiquid::prime(const MotionFrame& f) {
     }
 }
 
+// Adds `sign` times what the pairs make of these velocities on the piece.
+void RigidLiquid::addDrag(const MotionFrame& f, const Unknown& u, const Vec4* velocity, float sign, Six& sum) const {
+    const Double3 center = rigid_->pieces()[u.slot].center;
+    for (size_t k = u.firstPair; k < u.endPair; ++k) {
+        const Pair& q = pairs_[k];
+        const float along = sign * dot(velocity[q.row].xyz() - velocity[q.mover].xyz(), q.x);
+        const Double3 impulse = static_cast<double>(q.coefficient * along) * wide(q.x);
+        sum.linear += impulse;
+        sum.angular += cross(wide(f.particles.position[q.row].xyz()) - center, impulse);
+    }
+}
+
 // Residual and first direction; the movers' velocities are their start already.
 Dots RigidLiquid::start(const MotionFrame& f, Vec4* direction) {
     const Vec4* velocity = f.particles.velocity.data();
@@ -183,13 +183,7 @@ Dots RigidLiquid::start(const MotionFrame& f, Vec4* direction) {
         const Six value{b.velocity, b.spin};
         factorise(f, u);
         u.residual = massTimes(b, {u.before.linear - value.linear, u.before.angular - value.angular});
-        for (size_t k = u.firstPair; k < u.endPair; ++k) {
-            const Pair& q = pairs_[k];
-            const float along = dot(velocity[q.mover].xyz() - velocity[q.row].xyz(), q.x);
-            const Double3 impulse = static_cast<double>(q.coefficient * along) * wide(q.x);
-            u.residual.linear += impulse;
-            u.residual.angular += cross(wide(f.particles.position[q.row].xyz()) - b.center, impulse);
-        }
+        addDrag(f, u, velocity, -1, u.residual);
     }
     const Dots dots = measure();
     for (Unknown& u : unknowns_) u.direction = u.z, spread(f, u, u.direction, direction);
@@ -215,13 +209,7 @@ double RigidLiquid::curvature(const MotionFrame& f, Vec4* direction) {
     for (Unknown& u : unknowns_) {
         const RigidPiece& b = rigid_->pieces()[u.slot];
         u.image = massTimes(b, u.direction);
-        for (size_t k = u.firstPair; k < u.endPair; ++k) {
-            const Pair& q = pairs_[k];
-            const float along = dot(direction[q.row].xyz() - direction[q.mover].xyz(), q.x);
-            const Double3 impulse = static_cast<double>(q.coefficient * along) * wide(q.x);
-            u.image.linear += impulse;
-            u.image.angular += cross(wide(f.particles.position[q.row].xyz()) - b.center, impulse);
-        }
+        addDrag(f, u, direction, 1, u.image);
         sum += dot6(u.direction, u.image);
     }
     return sum;

@@ -72,6 +72,7 @@ private:
     Six massTimes(const RigidPiece& b, const Six& v) const { return {b.mass * v.linear, b.inertia * v.angular}; }
     void factorise(const MotionFrame& f, Unknown& u);
     static Six precondition(const Unknown& u);
+    void addDrag(const MotionFrame& f, const Unknown& u, const Vec4* velocity, float sign, Six& sum) const;
     Dots measure();
     void spread(const MotionFrame& f, const Unknown& u, const Six& v, Vec4* rows) const;
 

@@ -47,6 +47,29 @@ inline Symmetric3 inverse(const Symmetric3& a) {
             s * cz, s * (a.xy * a.xz - a.xx * a.yz)};
 }
 
+// Cholesky of a symmetric matrix of six motions by its lower triangle, in place. False where it is not positive.
+inline bool factorise(double (&a)[6][6]) {
+    for (int r = 0; r < 6; ++r)
+        for (int c = 0; c <= r; ++c) {
+            double z = a[r][c];
+            for (int k = 0; k < c; ++k) z -= a[r][k] * a[c][k];
+            if (r == c && !(z > 0)) return false;
+            a[r][c] = r == c ? std::sqrt(z) : z / a[c][c];
+        }
+    return true;
+}
+// Solves with the factor; b becomes the solution.
+inline void solve(const double (&factor)[6][6], double (&b)[6]) {
+    for (int q = 0; q < 6; ++q) {
+        for (int k = 0; k < q; ++k) b[q] -= factor[q][k] * b[k];
+        b[q] /= factor[q][q];
+    }
+    for (int q = 5; q >= 0; --q) {
+        for (int k = q + 1; k < 6; ++k) b[q] -= factor[k][q] * b[k];
+        b[q] /= factor[q][q];
+    }
+}
+
 // A rotation by its rows.
 struct Rotation3 {
     Double3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
