@@ -138,7 +138,8 @@ struct Filler {
 
     // Chooses how many lattice planes per axis: when the box of the mesh can be divided evenly without changing the
     // density by more than 1 %, it is, and boxes get perfect layers.
-    void makeLattice(size_t count) {
+    // whole: no point outside, as a lattice of whole layers has none; one chosen there leaves a hole inside.
+    void makeLattice(size_t count, bool whole) {
         Vec3 size = (1 / spacing) * (mesh.bounds.upper - mesh.bounds.lower);
         const float extent[3] = {size.x, size.y, size.z};
         float step[3] = {1, 1, 1}, best = 0.01f;
@@ -185,6 +186,7 @@ struct Filler {
                                first[2] + float(z) * step[2]},
                             g;
                         float d = depthAt(p, g);
+                        if (whole && d <= 0) continue;
                         // A plane at distance d cuts a cell of edge 1; across a diagonal it reaches further than 0.5.
                         float reach = 0.5f * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z));
                         float share = reach > 0.25f ? 0.5f + 0.5f * d / reach : d > 0 ? 1.0f : 0.0f;
@@ -586,11 +588,11 @@ thawResult fillMesh(const CleanMesh& mesh, float spacing, int maxParticles, Task
     Filler fill(mesh, spacing, tasks);
     size_t count = size_t(std::max(1.0, std::round(expected)));
     std::vector<Filler::Sample> samples = fill.surfaceSamples();
-    fill.makeLattice(count);
+    fill.makeLattice(count, true);
     if (!fill.perfect(samples)) {
         fill.points.clear(), fill.mobility.clear();
         fill.placeOnEdges(samples);
-        fill.makeLattice(count);
+        fill.makeLattice(count, false);
         fill.relax(36, 0.5f, 0);
         for (int round = 0; round < 4; ++round) {
             if (fill.cover(samples, kReach) == 0) break;

@@ -21,7 +21,7 @@ struct ConductionPass {
     const float* gradient;
     const uint32_t* first;
     const uint32_t* width;
-    const Vec4* state; // x temperature (any zero point), y conductivity, z 1 / (2 c); padded, dummies 0
+    const Vec4* state; // x temperature (any zero point), y conductivity, z half of 1 / c, see kBare; padded, dummies 0
     float* flow;       // per row the sum; padded to groups of 8
     float* weight;     // per row the sum of -w_ij; may be null
 };

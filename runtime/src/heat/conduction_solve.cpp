@@ -17,6 +17,9 @@ constexpr int kGroupBlock = kRowBlock / 8;
 // -Gegenbauer) is 3-10 times cheaper beyond, and was tried: a hot spot in three dimensions leaves its neighbours colder
 // than before it came, with every number of stages.
 constexpr double kExplicit = 0.9;
+// What 1 / filled still lacks: conductivity along lattice bars of 1, 4, 25 and 225 particles of cross-section and along
+// a film is 0.975, 1.000, 1.001, 1.000 and 0.997 of nominal with it, and 0.932, 0.975, 0.991, 0.997 and 0.969 without.
+constexpr float kBare = 0.085f;
 constexpr int kSubCycles = 8;
 // More sub-cycles than that cost more than conjugate gradients.
 constexpr int kImplicitIterations = 30;
@@ -42,7 +45,8 @@ void Conduction::fillState(const HeatFrame& f) {
             // Over ambient, so that what matters keeps its digits in float.
             state[k].x = static_cast<float>(m.kelvin(p.enthalpy[k]) - static_cast<double>(f.ambient));
             state[k].y = m.conductivity(m.liquidFraction(p.enthalpy[k]));
-            state[k].z = 0.5f / std::clamp(f.neighbors.volumeFraction[k], 0.4f, 1.25f);
+            const float filled = std::clamp(f.neighbors.volumeFraction[k], 0.4f, 1.25f);
+            state[k].z = 0.5f / filled * (1 + kBare * (1 - filled));
         }
     });
 }

@@ -24,7 +24,8 @@ struct Suite {
 std::vector<Suite> suites() {
     return {{"motion",
              "liquids, solids and colliders at one step per frame",
-             {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases(), softCases(), rigidCases()}}};
+             {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases(), softCases(), rigidCases()}},
+            {"heat", "conduction, loss and phase change", {conductionCases()}}};
 }
 
 struct Options {
@@ -128,7 +129,7 @@ void addValidate(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand(
         "validate", "Run cases with known answers and print expected, got, error and tolerance; 1 when any is out");
     auto o = std::make_shared<Options>();
-    command->add_option("suite", o->suite, "motion")->required();
+    command->add_option("suite", o->suite, "motion or heat")->required();
     command->add_option("case", o->cases, "Only these cases, or those whose names begin so");
     command->add_flag("--list", o->list, "Name the cases and what they are");
     command->add_option("--out", o->out, "CSV file for the rows as well");

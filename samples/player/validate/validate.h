@@ -47,5 +47,6 @@ CaseList impactCases();
 CaseList filmCases();
 CaseList softCases();
 CaseList rigidCases();
+CaseList conductionCases();
 
 } // namespace thaw::player

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "validate/lab.h"
+
+#include <functional>
+
+// What the cases of heat share.
+namespace thaw::player {
+
+// kg/m^3, J/(kg K), W/(m K), the same in both phases; neither absorbs nor emits, and what melts stays where it is.
+thawMaterialDef stays(double density, double specificHeat, double conductivity);
+// The same with two phases and a sharp melting point; latent heat in J/kg.
+struct Melting {
+    double density, kSolid, kLiquid, cSolid, cLiquid, latent, point;
+};
+thawMaterialDef stays(const Melting& m);
+
+// A world without gravity, whose air takes no heat, with a bar along x between four insulating walls: sections of any
+// materials and temperatures one after the other, each a body of its own.
+class Bar {
+public:
+    // spacing in m, width of the cross-section in particles
+    Bar(float spacing, int width, int maxParticles, float timeScale, double ambient);
+    // Appends `layers` layers.
+    void section(const thawMaterialDef& material, int layers, double temperature);
+    // A plate that keeps its temperature: 1000 times the heat and 1000 times the conductivity of anything else here.
+    void plate(double temperature, double conductivity);
+    // Heat seconds of n steps; steps until `seconds` of heat have passed, in whole steps.
+    double stepSeconds() const { return timeScale_ / 60.0; }
+    void run(double seconds);
+    double time() const { return time_; } // s of heat
+
+    int layers() const { return layers_; }
+    // Mean over a layer, counted from the bar's beginning.
+    std::vector<double> temperatures() const;
+    double molten() const; // layers, the sum of the mean liquid fractions
+    Lab lab;
+
+private:
+    std::vector<double> means(const float* values) const;
+    float spacing_, timeScale_;
+    int width_, layers_ = 0;
+    double time_ = 0;
+};
+
+} // namespace thaw::player
