@@ -21,6 +21,10 @@ constexpr float kRestTouch = 1.75f, kRestWallTouch = 1.5f;
 // In spacings a step. Nothing sets in flight.
 constexpr float kSlow = 0.3f, kRest = 1e-3f;
 
+// What has just set keeps no more room than melt does and takes the rest of what it keeps once it is held in this way:
+// at once, its neighbours jump by 0.045 spacings (`thaw validate motion soft-refreeze`), 0.002 so.
+constexpr float kRoomFade = 0.81f, kRoomLeast = 0.01f;
+
 constexpr int kRowBlock = 256;
 
 bool nearWall(const WallFinder& walls, Vec3 p, float reach) {
@@ -86,6 +90,8 @@ HoldResult Hold::decide(const HoldFrame& f, int begin, int end) {
         if (p.flags[k] & kFixed) {
             if (phi > m.def.releaseFraction) state_[k] = kRelease, ++result.released;
             if (p.pressure[k] > 0) p.pressure[k] = p.pressure[k] > 1 ? p.pressure[k] * kPressureFade : 0;
+            float& fresh = p.velocityChange[k].w;
+            if (fresh > 0) fresh = fresh > kRoomLeast ? fresh * kRoomFade : 0;
             continue;
         }
         if (phi >= m.def.setFraction || p.bondSlot[k]) continue;
@@ -321,7 +327,7 @@ HoldResult Hold::update(const HoldFrame& f) {
         if (state_[i] == kRelease) {
             letGo(f, i), queue_.push(static_cast<uint32_t>(i));
         } else if (state_[i] == kSet) {
-            p.velocityChange[i] = {};
+            p.velocityChange[i] = {0, 0, 0, 1};
             if (against_[i]) {
                 p.flags[i] |= kFixed | kRigid;
                 f.rigid.join(p, static_cast<uint32_t>(i), against_[i]);

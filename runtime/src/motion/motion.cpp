@@ -139,7 +139,7 @@ void Motion::begin(const MotionFrame& f) {
             if (!heldMoves_ && !p.piece[i]) p.velocity[i].setXyz({});
             point_[i] = {x.x, x.y, x.z, 0};
             direction_[i] = {};
-            target_[i] = {x.x, x.y, x.z, -p.position[i].w};
+            target_[i] = {x.x, x.y, x.z, -heldSupport(p.position[i].w, 1 - p.velocityChange[i].w)};
         }
     });
 

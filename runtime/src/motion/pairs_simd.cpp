@@ -223,10 +223,8 @@ double innerRows(const float* a, const float* b, int begin, int end) {
 }
 
 void separationGroups(const SeparationPass& p, int begin, int end) {
-    // Measured: pairs nearer than 0.65 spacings clump (28 % of a puddle without this pass, none with it); moving more
-    // than 0.3 of that distance at once, or all of the overlap, throws neighbours.
-    // Held particles keep a little more: between four of them the way in would be free below 0.71.
-    constexpr float kShare = 0.65f, kHeldShare = 0.73f, kStep = 0.3f, kRelax = 0.7f;
+    // Measured: moving more than 0.3 of that distance at once, or all of the overlap, throws neighbours.
+    constexpr float kStep = 0.3f, kRelax = 0.7f;
     for (int g = begin; g < end; ++g)
         for (int part = 0; part < 8; part += kLanes) {
             const Span s = spanOf(p.lists, g, part);
@@ -240,7 +238,7 @@ void separationGroups(const SeparationPass& p, int begin, int end) {
                 const F32 r2 = dot3(x, y, z, x, y, z);
                 const Mask held = hn::Lt(xj.w, zero());
                 const F32 scale =
-                    hn::IfThenElse(held, all(0.5f * kHeldShare / kSupport), all(0.5f * kShare / kSupport));
+                    hn::IfThenElse(held, all(0.5f * kNearHeld / kSupport), all(0.5f * kNear / kSupport));
                 const F32 d = hn::Mul(scale, hn::Add(hi, hn::Abs(xj.w)));
                 const Mask close = hn::Lt(r2, hn::Mul(d, d));
                 if (hn::AllFalse(kF32, close)) continue;

@@ -22,7 +22,7 @@ enum ParticleFlag : uint8_t {
     X(Vec4, position)       /* xyz m; w support radius h = kSupport * spacing of its level, m */                       \
     X(Vec4, velocity)       /* xyz m/s; w mass kg */                                                                   \
     X(Vec4, velocityChange) /* xyz m/s, what the last viscosity solve did (its warm start); w Pa s >= 0, of a start in \
-                               stiffness or a yield stress */                                                          \
+                               stiffness or a yield stress; fixed rows: 0, w 1..0 after it set (SeparationPass) */     \
     X(Vec4, normal)         /* xyz outward unit normal, w exposed area m^2; zero inside */                             \
     X(double, enthalpy)     /* J/kg above the material's solidus; double: a frame adds 1e-8 of it */                   \
     X(float, temperature)   /* K, from enthalpy */                                                                     \

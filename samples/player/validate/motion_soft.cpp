@@ -228,8 +228,7 @@ void refreeze(Findings& found) {
             return std::string(what);
         };
         found.atMost(name("melted at the end, share"), 0, static_cast<double>(lab.counters().meltedFraction));
-        // A held neighbour keeps 0.08 spacings more room, which a rigid one takes at once: 0.056 in a step.
-        if (elastic) found.atMost(name("largest way in a step while it sets, spacings"), 0.05, jump);
+        found.atMost(name("largest way in a step while it sets, spacings"), 0.02, jump);
         found.atMost(name("changes in 60 s after, spacings"), 0.05, farthest(set, pointsOf(lab)) / 0.004);
     }
 }
