@@ -143,7 +143,8 @@ struct HeatFixture {
         if (stages & kLoss) heat.loss(f);
         heat.integrate(f);
         const HeatStats& s = heat.stats();
-        total.absorbed += s.absorbed, total.emitted += s.emitted, total.convected += s.convected;
+        total.absorbed += s.absorbed, total.contact += s.contact, total.emitted += s.emitted,
+            total.convected += s.convected;
     }
     double energy() const {
         double e = 0;

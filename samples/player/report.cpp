@@ -119,8 +119,8 @@ std::string Report::table() const {
     out += formatted("  over %-9s %zu of %zu frames (%.2f %%)\n", formatted("%g ms", double(limitMs)).c_str(),
                      framesOver(), steps(), 100.0 * double(framesOver()) / double(n));
     out += formatted("  mass error     %.2e\n", ledger_.massError);
-    out += formatted("  energy error   %.2e  (absorbed %.4g J, emitted %.4g J, convected %.4g J)\n",
-                     ledger_.energyError, ledger_.absorbed, ledger_.emitted, ledger_.convected);
+    out += formatted("  energy error   %.2e  (absorbed %.4g J, by contact %.4g J, emitted %.4g J, convected %.4g J)\n",
+                     ledger_.energyError, ledger_.absorbed, ledger_.contact, ledger_.emitted, ledger_.convected);
     out += formatted("  compression    %.2f %% mean, %.2f %% most; fastest %.2f m/s; solved with up to %.3g Pa s\n",
                      100.0 * double(c.meanCompression), 100.0 * double(c.maxCompression), double(c.maxSpeed),
                      double(c.apparentViscosity));
@@ -200,8 +200,8 @@ std::string Report::json() const {
                       {"apparentViscosity", c.apparentViscosity}};
     root["ledger"] = {{"massError", ledger_.massError}, {"energyError", ledger_.energyError},
                       {"massNow", ledger_.massNow},     {"energyNow", ledger_.energyNow},
-                      {"absorbed", ledger_.absorbed},   {"emitted", ledger_.emitted},
-                      {"convected", ledger_.convected}};
+                      {"absorbed", ledger_.absorbed},   {"contact", ledger_.contact},
+                      {"emitted", ledger_.emitted},     {"convected", ledger_.convected}};
     Json status = Json::array();
     for (size_t b = 0; b < 32; ++b)
         if (statusCounts_[b])

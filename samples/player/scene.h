@@ -80,8 +80,10 @@ struct Collider {
     Placement placement;
     bool adhesive = true;
     bool occluder = true;
-    float slipLength = 0.0f; // m, range 0..1e4
-    float friction = 0.5f;   // range 0..10
+    float slipLength = 0.0f;             // m, range 0..1e4
+    float friction = 0.5f;               // range 0..10
+    float temperature = NAN;             // K, range 0..1e5; NaN: exchanges no heat
+    float contactConductance = INFINITY; // W/(m^2 K), range 0..infinity
     bool visible = true;
     thawVec3 color{0.35f, 0.33f, 0.31f}; // linear RGB 0..1
 };

@@ -184,6 +184,8 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
         d.adhesive = c.adhesive;
         d.slipLength = c.slipLength;
         d.friction = c.friction;
+        d.temperature = c.temperature;
+        d.contactConductance = c.contactConductance;
         d.occluder = c.occluder;
         thawColliderId id{};
         thawMeshReport report{};

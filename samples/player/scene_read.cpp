@@ -516,6 +516,8 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         r.flag("occluder", collider.occluder);
         r.real("slipLength", collider.slipLength, 0.0, 1e4, "m");
         r.real("friction", collider.friction, 0.0, 10.0);
+        r.real("temperature", collider.temperature, 0.0, 1e5, "K");
+        r.real("contactConductance", collider.contactConductance, 0.0, 1e30, "W/(m^2 K)");
         r.flag("visible", collider.visible);
         r.vector("color", collider.color, 0.0, 1.0);
         r.done();

@@ -210,6 +210,9 @@ std::string writeScene(const Scene& scene) {
                  o.add("occluder", boolean(collider.occluder));
                  o.add("slipLength", shortest(collider.slipLength));
                  o.add("friction", shortest(collider.friction));
+                 if (!std::isnan(collider.temperature)) o.add("temperature", shortest(collider.temperature));
+                 if (std::isfinite(collider.contactConductance))
+                     o.add("contactConductance", shortest(collider.contactConductance));
                  o.add("visible", boolean(collider.visible));
                  o.add("color", vector(collider.color));
                  return o.end();

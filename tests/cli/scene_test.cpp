@@ -69,6 +69,7 @@ Scene fullScene() {
         c.occluder = type == ShapeType::cone;
         c.visible = type == ShapeType::torus;
         c.slipLength = 0.0031f, c.friction = 1.25f;
+        if (type != ShapeType::torus) c.temperature = 371.25f, c.contactConductance = 512.5f;
         c.color = {0.7f, 0.0f, 1.0f};
         s.colliders.push_back(c);
         Prop p;
@@ -142,6 +143,8 @@ TEST_CASE("every field of a scene survives writing and reading") {
         }
         CHECK(a.colliders[i].slipLength == b.colliders[i].slipLength);
         CHECK(a.colliders[i].friction == b.colliders[i].friction);
+        CHECK(std::memcmp(&a.colliders[i].temperature, &b.colliders[i].temperature, sizeof(float)) == 0);
+        CHECK(a.colliders[i].contactConductance == b.colliders[i].contactConductance);
         sameShape(a.colliders[i].shape, b.colliders[i].shape);
         CHECK(std::memcmp(&a.colliders[i].placement, &b.colliders[i].placement, sizeof(Placement)) == 0);
         CHECK(a.colliders[i].adhesive == b.colliders[i].adhesive);

@@ -303,6 +303,9 @@ typedef struct thawColliderDef {
                            default 0 (sticks), 1e4 slides freely */
     float friction;     /* 1, Coulomb coefficient for solid pieces; range 0..10, default 0.5 */
     bool reportImpulse; /* measure what acts on it, for thawCollider_GetImpulse; default false */
+    float temperature;  /* K, heats and cools what touches it; range 0..1e5; NaN, the default: exchanges no heat */
+    float contactConductance; /* W/(m^2 K), of the contact, in series with the melt's own conduction; range 0..infinity,
+                                 default infinity (perfect contact); a hand about 500, a pan on metal 3000 */
 } thawColliderDef;
 
 THAW_API void thawInitColliderDef(thawColliderDef* def, thawColliderType type);
@@ -319,6 +322,11 @@ THAW_API thawResult thawCollider_SetTransform(thawWorld* world, thawColliderId i
 THAW_API thawResult thawCollider_Teleport(thawWorld* world, thawColliderId id, thawVec3 position, thawQuat rotation);
 THAW_API thawResult thawCollider_GetTransform(const thawWorld* world, thawColliderId id, thawVec3* position,
                                               thawQuat* rotation);
+
+/* What it heats or cools from the next step on: temperature and contactConductance as in thawColliderDef; a NaN
+ * temperature switches it off. May be called before every step. */
+THAW_API thawResult thawCollider_SetHeat(thawWorld* world, thawColliderId id, float temperature,
+                                         float contactConductance);
 
 /* What acted on a collider during the last step: pressure, drag, adhesion and contact of the melt, weight and inertia
  * of what hangs on it. Divided by the time step: force in N and torque in N m, for a host's rigid body. */
@@ -479,11 +487,13 @@ typedef struct thawLedger {
     double energyAdded;                     /* J, enthalpy that bodies brought, relative to each material's solidus */
     double energyRemoved;                   /* J, taken out with destroyed bodies and bad particles */
     double absorbed;                        /* J from sources */
+    double contact;                         /* J from colliders with a temperature */
     double emitted;                         /* J by thermal radiation, net of what ambient sends back */
     double convected;                       /* J to the air */
     double energyNow;                       /* J, sum of m H */
     double massError;                       /* |massNow - added + removed| / added */
-    double energyError; /* |energyNow - (added - removed + absorbed - emitted - convected)| / largest sum moved */
+    double energyError; /* |energyNow - (added - removed + absorbed + contact - emitted - convected)| / largest sum
+                              moved */
 } thawLedger;
 THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);
 

@@ -50,6 +50,11 @@ public:
         if (!(value >= low && value <= high))
             fail(thawResult_invalidArgument, "%s: must be in %g..%g, got %g", field, low, high, value);
     }
+    // K, or NaN for none, and W/(m^2 K).
+    void wallHeat(float temperature, float conductance) {
+        if (!std::isnan(temperature)) range("temperature", temperature, 0, 1e5);
+        range("contactConductance", conductance, 0, std::numeric_limits<double>::infinity());
+    }
     void finite(const char* field, thawVec3 v, double limit) {
         range(field, v.x, -limit, limit), range(field, v.y, -limit, limit), range(field, v.z, -limit, limit);
     }
@@ -459,6 +464,8 @@ void thawInitColliderDef(thawColliderDef* def, thawColliderType type) {
     def->scale = 1;
     def->adhesive = def->occluder = true;
     def->friction = 0.5f;
+    def->temperature = std::numeric_limits<float>::quiet_NaN();
+    def->contactConductance = std::numeric_limits<float>::infinity();
 }
 
 thawResult thawCreateCollider(thawWorld* world, const thawColliderDef* def, thawColliderId* outId,
@@ -480,6 +487,7 @@ thawResult thawCreateCollider(thawWorld* world, const thawColliderDef* def, thaw
         if (type == thawCollider_mesh) c.range("scale", def->scale, 1e-6, 1e6);
         c.range("slipLength", def->slipLength, 0, 1e4);
         c.range("friction", def->friction, 0, 10);
+        c.wallHeat(def->temperature, def->contactConductance);
         if (c.ok() && type == thawCollider_mesh) c.mesh("mesh", def->mesh);
         if (!c.ok()) return;
         std::string message;
@@ -521,6 +529,16 @@ thawResult thawCollider_GetTransform(const thawWorld* world, thawColliderId id, 
     *position = {t.position.x, t.position.y, t.position.z};
     *rotation = {t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w};
     return thawResult_ok;
+}
+
+thawResult thawCollider_SetHeat(thawWorld* world, thawColliderId id, float temperature, float contactConductance) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!alive(w, id, w.colliderSlots)) c.fail(thawResult_staleId, "collider: is not alive in this world");
+        c.wallHeat(temperature, contactConductance);
+        if (!c.ok()) return;
+        thaw::Collider& wall = w.colliders[id.index1 - 1];
+        wall.temperature = temperature, wall.conductance = contactConductance;
+    });
 }
 
 thawResult thawCollider_GetImpulse(const thawWorld* world, thawColliderId id, thawColliderImpulse* out) {

@@ -18,10 +18,14 @@ struct Collider {
     Vec3 size;
     bool adhesive = true, occluder = true;
     bool alive = false;
-    float slipLength = 0;  // m, how far behind the wall the liquid's velocity would be the wall's; 0 sticks
-    float friction = 0.5f; // Coulomb coefficient of what is solid or rigid on it
+    float slipLength = 0;         // m, how far behind the wall the liquid's velocity would be the wall's; 0 sticks
+    float friction = 0.5f;        // Coulomb coefficient of what is solid or rigid on it
+    float temperature = NAN;      // K, of what heats and cools by contact; NaN: adiabatic
+    float conductance = INFINITY; // W/(m^2 K), of that contact
     std::shared_ptr<const DistanceGrid> grid; // mesh: scaled, but neither turned nor moved
     std::shared_ptr<const CleanMesh> mesh;    // mesh: of the same space, for rays
+
+    bool heats() const { return alive && conductance > 0 && std::isfinite(temperature); }
 
     bool report = false;    // the host asks for its impulse
     bool kinematic = false; // the host has moved it: what hangs on it is kept apart from what hangs on the rest

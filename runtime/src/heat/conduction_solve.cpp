@@ -45,7 +45,8 @@ void Conduction::fillState(const HeatFrame& f) {
             // Over ambient, so that what matters keeps its digits in float.
             state[k].x = static_cast<float>(m.kelvin(p.enthalpy[k]) - static_cast<double>(f.ambient));
             state[k].y = m.conductivity(m.liquidFraction(p.enthalpy[k]));
-            const float filled = std::clamp(f.neighbors.volumeFraction[k], 0.4f, 1.25f);
+            const float share = f.neighbors.volumeFraction[k] / (walls ? walls[k].covered : 1.0f);
+            const float filled = std::clamp(share, 0.4f, 1.25f);
             state[k].z = 0.5f / filled * (1 + kBare * (1 - filled));
         }
     });
@@ -87,12 +88,14 @@ double Conduction::fastest(const HeatFrame& f) {
     const float moment = conductionMoment();
     const Sums s = sumRows(f, [&](size_t k, Sums& sums) {
         const double mc = p.velocity[k].w * leastHeat(f.materials[p.material[k]]);
-        if (mc > 0) sums.high = std::max(sums.high, static_cast<float>(f.volume[k] * weight[k] / (moment * mc)));
+        if (!(mc > 0)) return;
+        const double wall = walls ? static_cast<double>(walls[k].conductance) : 0.0;
+        sums.high = std::max(sums.high, static_cast<float>((f.volume[k] * weight[k] / moment + wall) / mc));
     });
     return std::max(0.0f, s.high);
 }
 
-void Conduction::explicitStep(const HeatFrame& f, double dt) {
+double Conduction::explicitStep(const HeatFrame& f, double dt) {
     Particles& p = f.particles;
     const double scale = dt / conductionMoment();
     // A pair's two halves are equal up to the rounding of V_i (V_j g); what is left over is taken back where it arose.
@@ -101,19 +104,28 @@ void Conduction::explicitStep(const HeatFrame& f, double dt) {
         sums.a += e, sums.b += std::abs(e);
     });
     const double back = s.b > 0 ? s.a / s.b : 0;
-    f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
-        for (int i = begin; i < end; ++i) {
-            const size_t k = static_cast<size_t>(i);
-            const double e = static_cast<double>(f.volume[k]) * flow[k];
-            if (e != 0 && p.velocity[k].w > 0) p.enthalpy[k] += scale * (e - back * std::abs(e)) / p.velocity[k].w;
-        }
-    });
+    return sumRows(f,
+                   [&](size_t k, Sums& sums) {
+                       if (!(p.velocity[k].w > 0)) return;
+                       const double e = static_cast<double>(f.volume[k]) * flow[k];
+                       if (e != 0) p.enthalpy[k] += scale * (e - back * std::abs(e)) / p.velocity[k].w;
+                       if (!walls || walls[k].conductance == 0) return;
+                       const double in = dt * fromWall(f, k, static_cast<double>(state[k].x));
+                       p.enthalpy[k] += in / p.velocity[k].w, sums.a += in;
+                   })
+        .a;
+}
+
+// W, at a temperature over ambient.
+double Conduction::fromWall(const HeatFrame& f, size_t k, double kelvin) const {
+    const double wall = static_cast<double>(walls[k].temperature) - static_cast<double>(f.ambient);
+    return static_cast<double>(walls[k].conductance) * (wall - kelvin);
 }
 
 // Backward Euler by conjugate gradients with the heat capacity of the cheaper phase, which keeps enthalpies in bounds
 // when a particle melts on the way. A solve that stops at its cap may leave the range of the temperatures it began
 // with: it is clipped, and what the clipping made or lost is given back in proportion to the room left, which exists.
-void Conduction::implicitStep(const HeatFrame& f) {
+double Conduction::implicitStep(const HeatFrame& f) {
     Particles& p = f.particles;
     const size_t rows = state.size();
     direction.assign(rows, 0.0f), residual.assign(rows, 0.0f), solution.assign(rows, 0.0f);
@@ -122,13 +134,19 @@ void Conduction::implicitStep(const HeatFrame& f) {
     // Rows without neighbours keep zeros everywhere and take no part.
     const auto active = [&](size_t k) { return inverse[k] > 0; };
     const Sums start = sumRows(f, [&](size_t k, Sums& s) {
-        if (!(weight[k] > 0) || !(p.velocity[k].w > 0)) return;
+        const double wall = walls ? static_cast<double>(walls[k].conductance) : 0.0;
+        if (!(weight[k] > 0 || wall > 0) || !(p.velocity[k].w > 0)) return;
         const double capacity = p.velocity[k].w * leastHeat(f.materials[p.material[k]]);
-        heat[k] = static_cast<float>(capacity), exchange[k] = static_cast<float>(dt * f.volume[k]);
-        inverse[k] = static_cast<float>(1 / (capacity + dt * f.volume[k] * weight[k]));
+        heat[k] = static_cast<float>(capacity + f.dt * wall), exchange[k] = static_cast<float>(dt * f.volume[k]);
+        inverse[k] = static_cast<float>(1 / (capacity + f.dt * wall + dt * f.volume[k] * weight[k]));
         solution[k] = state[k].x;
         s.low = std::min(s.low, state[k].x), s.high = std::max(s.high, state[k].x);
         residual[k] = exchange[k] * flow[k];
+        if (wall > 0) {
+            const float kelvin = walls[k].temperature - f.ambient;
+            s.low = std::min(s.low, kelvin), s.high = std::max(s.high, kelvin);
+            residual[k] += static_cast<float>(f.dt * fromWall(f, k, static_cast<double>(state[k].x)));
+        }
         direction[k] = residual[k] * inverse[k];
         s.a += static_cast<double>(residual[k]) * direction[k];
     });
@@ -157,21 +175,24 @@ void Conduction::implicitStep(const HeatFrame& f) {
             }
         });
     }
-    const auto capacity = [&](size_t k) { return static_cast<double>(heat[k]); };
+    const auto capacity = [&](size_t k) { return p.velocity[k].w * leastHeat(f.materials[p.material[k]]); };
     const auto kelvin = [&](size_t k) {
         return f.materials[p.material[k]].kelvin(p.enthalpy[k]) - static_cast<double>(f.ambient);
     };
     const double low = start.low, high = start.high;
     const auto clipped = [&](size_t k) { return std::clamp(static_cast<double>(solution[k]), low, high); };
-    const double made = sumRows(f, [&](size_t k, Sums& s) {
-                            if (active(k)) s.a += capacity(k) * (clipped(k) - kelvin(k));
-                        }).a;
+    const Sums moved = sumRows(f, [&](size_t k, Sums& s) {
+        if (!active(k)) return;
+        s.a += capacity(k) * (clipped(k) - kelvin(k));
+        if (walls && walls[k].conductance > 0) s.b += f.dt * fromWall(f, k, clipped(k));
+    });
+    const double made = moved.a - moved.b;
     const auto room = [&](size_t k) { return capacity(k) * (made > 0 ? clipped(k) - low : high - clipped(k)); };
     const double rooms = sumRows(f, [&](size_t k, Sums& s) {
                              if (active(k)) s.a += room(k);
                          }).a;
     // All alike to the last digit of float: nothing to conduct.
-    if (!(rooms >= std::abs(made)) || rooms == 0) return;
+    if (!(rooms >= std::abs(made)) || rooms == 0) return 0;
     const double back = made / rooms;
     f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
         for (int i = begin; i < end; ++i) {
@@ -181,22 +202,23 @@ void Conduction::implicitStep(const HeatFrame& f) {
             p.enthalpy[k] += e / p.velocity[k].w;
         }
     });
+    return moved.b;
 }
 
-void Conduction::run(const HeatFrame& f) {
-    if (f.particles.count == 0 || !(f.dt > 0)) return;
+double Conduction::run(const HeatFrame& f, const WallContact* wallContacts) {
+    if (f.particles.count == 0 || !(f.dt > 0)) return 0;
+    walls = wallContacts;
     fillState(f);
     pairPass(f, true);
     const double needed = std::ceil(f.dt * fastest(f) / kExplicit);
-    if (needed > kSubCycles) {
-        implicitStep(f);
-        return;
-    }
+    if (needed > kSubCycles) return implicitStep(f);
     const int cycles = std::max(1, static_cast<int>(needed));
+    double in = 0;
     for (int c = 0; c < cycles; ++c) {
         if (c > 0) fillState(f), pairPass(f, false);
-        explicitStep(f, f.dt / cycles);
+        in += explicitStep(f, f.dt / cycles);
     }
+    return in;
 }
 
 } // namespace thaw

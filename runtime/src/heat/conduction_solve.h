@@ -3,18 +3,21 @@
 #pragma once
 
 #include "base/memory.h"
+#include "heat/contact.h"
 #include "heat/frame.h"
 
 namespace thaw {
 
-// Conduction between particles over one step: explicit sub-cycles, or implicit when the step is long.
+// Conduction between particles, and with the walls that they touch, over one step: explicit sub-cycles, or implicit
+// when the step is long.
 class Conduction {
 public:
     explicit Conduction(Allocator& a)
         : state(a), flow(a), weight(a), direction(a), residual(a), solution(a), heat(a), exchange(a), inverse(a),
           blockSums(a) {}
 
-    void run(const HeatFrame& f);
+    // walls: per row, or null. Returns what came in from them, J.
+    double run(const HeatFrame& f, const WallContact* walls);
 
 private:
     struct Sums {
@@ -24,10 +27,12 @@ private:
     void pairPass(const HeatFrame& f, bool weights);
     void fillState(const HeatFrame& f);
     double fastest(const HeatFrame& f);
-    void explicitStep(const HeatFrame& f, double dt);
-    void implicitStep(const HeatFrame& f);
+    double explicitStep(const HeatFrame& f, double dt);
+    double implicitStep(const HeatFrame& f);
+    double fromWall(const HeatFrame& f, size_t k, double kelvin) const;
     template <class F> Sums sumRows(const HeatFrame& f, F&& row);
 
+    const WallContact* walls = nullptr;                                  // of this step
     Array<Vec4> state;                                                   // see ConductionPass
     Array<float> flow, weight;                                           // of the pair pass
     Array<float> direction, residual, solution, heat, exchange, inverse; // of the conjugate gradients

@@ -35,7 +35,8 @@ struct HeatFrame {
 };
 
 struct HeatStats {
-    double absorbed = 0, emitted = 0, convected = 0; // J in this step; emitted and convected are losses
+    double absorbed = 0, contact = 0;  // J in this step, from sources and from walls
+    double emitted = 0, convected = 0; // J, losses
     int rays = 0;
     bool raysReduced = false;
 };

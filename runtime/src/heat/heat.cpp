@@ -7,6 +7,7 @@
 #include "heat/heat.h"
 
 #include "heat/conduction_solve.h"
+#include "heat/contact.h"
 #include "heat/radiation.h"
 
 #include <algorithm>
@@ -75,9 +76,10 @@ Settled settle(const Material& m, double H, const Surroundings& s) {
 } // namespace
 
 struct Heat::Impl {
-    explicit Impl(Allocator& a) : radiation(a), conduction(a), booking(a) {}
+    explicit Impl(Allocator& a) : radiation(a), contact(a), conduction(a), booking(a) {}
 
     Radiation radiation;
+    Contact contact;
     Conduction conduction;
     Array<Booking> booking; // per block
 
@@ -106,8 +108,9 @@ void Heat::radiation(const HeatFrame& f) {
 }
 
 void Heat::conduction(const HeatFrame& f) {
-    impl_->begin(stats_);
-    impl_->conduction.run(f);
+    Impl& m = *impl_;
+    m.begin(stats_);
+    stats_.contact = m.conduction.run(f, m.contact.find(f));
 }
 
 void Heat::loss(const HeatFrame& f) {

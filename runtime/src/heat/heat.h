@@ -17,10 +17,11 @@ public:
     explicit Heat(Allocator& allocator); // throws std::bad_alloc; Embree is started at the first radiation
     ~Heat();
 
-    void radiation(const HeatFrame& f);  // casts rays, the unknown and longest unseen first; finds the power absorbed
-    void conduction(const HeatFrame& f); // pairwise antisymmetric; sub-cycles, then implicit when dt is long
-    void loss(const HeatFrame& f);       // settles each surface particle with what it absorbs, emits, convects
-    void integrate(const HeatFrame& f);  // absorbs if loss() did not; bounds; temperature, liquid fraction
+    void radiation(const HeatFrame& f); // casts rays, the unknown and longest unseen first; finds the power absorbed
+    void conduction(
+        const HeatFrame& f); // between particles, and from walls by contact; sub-cycles, then implicit when dt is long
+    void loss(const HeatFrame& f);      // settles each surface particle with what it absorbs, emits, convects
+    void integrate(const HeatFrame& f); // absorbs if loss() did not; bounds; temperature, liquid fraction
     const HeatStats& stats() const { return stats_; }
 
 private:

@@ -109,7 +109,8 @@ uint32_t World::step(float dt, const thawBudget& budget) {
         auto t = timed(thawStage_phase);
         heat_.integrate(frame);
         heatStats = heat_.stats();
-        absorbed_ += heatStats.absorbed, emitted_ += heatStats.emitted, convected_ += heatStats.convected;
+        absorbed_ += heatStats.absorbed, contact_ += heatStats.contact;
+        emitted_ += heatStats.emitted, convected_ += heatStats.convected;
         if (heatStats.raysReduced) status |= thawStep_raysReduced;
     }
     if (now.heatDue) heatTimePending_ = 0;
@@ -215,6 +216,9 @@ Needs World::needs() const {
     for (const HeatSource& s : sources) n.sourceOn |= s.alive && s.enabled && s.power != 0;
     n.timeScaleZero = def.thermalTimeScale == 0;
     n.unequal = maxTemperature_ - minTemperature_ > kEqualTemperature;
+    for (const Collider& c : colliders)
+        n.unequal |=
+            c.heats() && std::max(c.temperature - minTemperature_, maxTemperature_ - c.temperature) > kEqualTemperature;
     n.awayFromAmbient = maxTemperature_ - def.ambientTemperature > kEqualTemperature ||
                         def.ambientTemperature - minTemperature_ > kEqualTemperature;
     return n;
@@ -688,6 +692,7 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
     c.size = {d.size.x, d.size.y, d.size.z};
     c.adhesive = d.adhesive, c.occluder = d.occluder, c.alive = true;
     c.slipLength = d.slipLength, c.friction = d.friction, c.report = d.reportImpulse;
+    c.temperature = d.temperature, c.conductance = d.contactConductance;
     if (d.type == thawCollider_mesh) {
         auto mesh = std::make_shared<CleanMesh>();
         const thawResult r = cleanMesh(d.mesh, {{}, {}, d.scale}, *mesh, message);
@@ -767,6 +772,10 @@ uint64_t World::stateHash() const {
     }
     bytes(&stepsSinceRelabel_, sizeof stepsSinceRelabel_);
     for (const Collider& c : colliders) {
+        if (!c.heats()) continue;
+        bytes(&c.temperature, sizeof c.temperature), bytes(&c.conductance, sizeof c.conductance);
+    }
+    for (const Collider& c : colliders) {
         if (!c.alive || !toldApart(c)) continue;
         const Transform& t = c.hasTarget ? c.target : c.transform;
         for (const Transform* x : {&c.transform, &t}) {
@@ -782,11 +791,11 @@ thawLedger World::ledger() const {
     thawLedger l{};
     l.massAdded = massAdded_, l.massRemoved = massRemoved_, l.massNow = massNow_;
     l.energyAdded = energyAdded_, l.energyRemoved = energyRemoved_, l.energyNow = energyNow_;
-    l.absorbed = absorbed_, l.emitted = emitted_, l.convected = convected_;
+    l.absorbed = absorbed_, l.contact = contact_, l.emitted = emitted_, l.convected = convected_;
     l.massError = massAdded_ > 0 ? std::abs(massNow_ - massAdded_ + massRemoved_) / massAdded_ : 0;
-    const double expected = energyAdded_ - energyRemoved_ + absorbed_ - emitted_ - convected_;
-    const double scale = std::max(
-        {std::abs(energyAdded_ - energyRemoved_), std::abs(absorbed_), std::abs(emitted_), std::abs(convected_)});
+    const double expected = energyAdded_ - energyRemoved_ + absorbed_ + contact_ - emitted_ - convected_;
+    const double scale = std::max({std::abs(energyAdded_ - energyRemoved_), std::abs(absorbed_), std::abs(contact_),
+                                   std::abs(emitted_), std::abs(convected_)});
     l.energyError = scale > 0 ? std::abs(energyNow_ - expected) / scale : 0;
     return l;
 }

@@ -133,7 +133,7 @@ private:
 
     // Ledger and counters of the last measurement.
     double massAdded_ = 0, massRemoved_ = 0, energyAdded_ = 0, energyRemoved_ = 0;
-    double absorbed_ = 0, emitted_ = 0, convected_ = 0;
+    double absorbed_ = 0, contact_ = 0, emitted_ = 0, convected_ = 0;
     double massNow_ = 0, energyNow_ = 0, liquidMass_ = 0;
     float minTemperature_ = 0, maxTemperature_ = 0;
     int badParticles_ = 0;
