@@ -15,7 +15,6 @@ struct RigidPiece {
     bool lostRows = false;  // may have fallen apart
     bool solved = false;    // was an unknown of the last viscosity solve
     bool carried = false;   // something bore some of it in the step before
-    bool grounded = false;  // a wall or something held did
     uint16_t calm = 0;      // steps
     uint32_t id = 0;        // stable, never reused
     uint32_t first = 0;     // its rows in Rigid::rows
@@ -118,6 +117,7 @@ private:
     Double3 approach(const RigidContact& c) const;
     bool wakeHit(double dt);
     void followWalls(const MotionFrame& f, uint32_t slot);
+    void followTurn(const MotionFrame& f, uint32_t slot);
     void followSolids(const MotionFrame& f, uint32_t slot);
     void integrate(const MotionFrame& f, uint32_t slot);
     void keepLoads(double dt);

@@ -55,7 +55,7 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback
                 hand(b, -static_cast<double>(impulse) * wide(x), wide(xj.xyz()));
             }
         }
-        if (pairs_.size() == firstPair || b.asleep || b.grounded) continue;
+        if (pairs_.size() == firstPair || b.asleep) continue;
         Unknown u{};
         u.slot = slot, u.firstPair = firstPair, u.endPair = pairs_.size();
         unknowns_.push(u);
@@ -231,7 +231,7 @@ void RigidLiquid::turn(const MotionFrame& f, double keep, Vec4* direction) {
     }
 }
 
-// What the solve changed is an impulse; what is frozen in it gets its pairs', by the velocities that came out.
+// What the solve changed is an impulse; what sleeps gets its pairs', by the velocities that came out.
 void RigidLiquid::finish(const MotionFrame& f, bool sound) {
     const Particles& p = f.particles;
     Array<RigidPiece>& pieces = rigid_->pieces();

@@ -9,8 +9,9 @@ namespace thaw {
 
 // What liquid and rigid pieces do to each other, inside the iterations: handed over after the solve, light pieces blow
 // up and others float wrongly. Every impulse on a mover by a row of a piece is on that piece too. In the viscosity
-// solve a piece has six unknowns of its own; one that a wall carried in the step before is frozen there (free, it blew
-// up) and gets what the pairs say at the end.
+// solve a piece has six unknowns of its own, whatever carries it: one that is frozen there because a wall carries it,
+// and gets what the pairs say at the end, is driven by its own drag, and slid about in a pool at 0.04 m/s. (Contacts
+// have to be converged for that, kSweepsBetween.) What sleeps is no unknown.
 class RigidLiquid {
 public:
     explicit RigidLiquid(Allocator& allocator);

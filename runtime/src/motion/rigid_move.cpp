@@ -108,7 +108,7 @@ void Rigid::decide(const MotionFrame& f) {
     const uint32_t slots = static_cast<uint32_t>(pieces_.size());
     shares_.assign(slots, 1);
     for (uint32_t s = 0; s < slots; ++s)
-        if (awake(s)) followWalls(f, s);
+        if (awake(s)) followWalls(f, s), followTurn(f, s);
     for (uint32_t s = 0; s < slots; ++s)
         if (awake(s)) followSolids(f, s);
     setVelocities(f);
@@ -256,13 +256,10 @@ void Rigid::integrate(const MotionFrame& f, uint32_t slot) {
 
 void Rigid::rest(const MotionFrame& f) {
     const double dt = f.dt;
-    for (RigidPiece& b : pieces_) b.load = (1 / dt) * b.linear, b.carried = b.grounded = false;
+    for (RigidPiece& b : pieces_) b.load = (1 / dt) * b.linear, b.carried = false;
     for (const Load& l : loads_) {
         pieces_[l.a].carried = true;
-        if (l.other >= RigidContact::kHeld) {
-            pieces_[l.a].grounded = true;
-            continue;
-        }
+        if (l.other >= RigidContact::kHeld) continue;
         pieces_[l.other].carried = true;
         pieces_[l.a].load += (1 / dt) * l.total, pieces_[l.other].load -= (1 / dt) * l.total;
     }

@@ -62,7 +62,8 @@ void Rigid::prepareContacts(double dt) {
 // driven apart when `recover` is set. No restitution.
 void Rigid::solve(int sweeps, double dt, bool recover) {
     const size_t n = contacts_.size();
-    for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        double largest = 0, changed = 0;
         for (size_t k = 0; k < n; ++k) {
             RigidContact& c = contacts_[sweep & 1 ? n - 1 - k : k];
             double wanted = -c.gap / dt;
@@ -74,6 +75,7 @@ void Rigid::solve(int sweeps, double dt, bool recover) {
             const double push = std::max(0.0, c.push + c.massN * (wanted - dot(c.normal, approach(c))));
             const double more = push - c.push;
             c.push = push;
+            largest = std::max(largest, push), changed = std::max(changed, std::abs(more));
             if (more != 0) apply(c, more * c.normal);
             if (push == 0 && c.rub.x == 0 && c.rub.y == 0 && c.rub.z == 0) continue;
             const Double3 v = approach(c);
@@ -82,8 +84,11 @@ void Rigid::solve(int sweeps, double dt, bool recover) {
             if (size > most) rub = (most / size) * rub;
             const Double3 change = rub - c.rub;
             c.rub = rub;
+            changed = std::max(changed, length(change));
             apply(c, change);
         }
+        if (!recover && changed <= kSolved * largest) return;
+    }
 }
 
 void Rigid::keepLoads(double dt) {

@@ -86,7 +86,7 @@ void freeFall(Findings& found) {
         d.angularVelocity = {3, 1, -2};
     });
     const auto before = placesOf(lab);
-    double start = 0, most = -INFINITY, fallen = 0, exact = 0, after = 0;
+    double start = 0, most = -INFINITY, fallen = 0, exact = 0, after = 0, deepest = -INFINITY;
     int landed = 0;
     const double top = 1.5;
     lab.step(180, [&](int frame) {
@@ -95,13 +95,16 @@ void freeFall(Findings& found) {
         if (frame == 1) start = e;
         most = std::max(most, e - start);
         if (frame == 30) fallen = top - double(s.center.y), exact = 0.5 * kG * (30 * kDt) * (30 * kDt);
-        if (!landed && frame > 30 && double(s.velocity.y) > -0.5) landed = frame;
+        deepest = std::max(deepest, 0.5 - lowest(lab) / 0.004);
+        if (!landed && deepest > -0.5) landed = frame;
         if (frame == 180) after = speedOf(s.velocity);
     });
     const double mass = double(piecesOf(lab).at(0).mass);
     found.within("fallen after 0.5 s, m", exact, fallen, 0.001);
     found.atMost("energy gained / energy of the fall", 0.001, most / (mass * kG * top));
     found.within("lands, s", std::sqrt(2 * (top - 0.016) / kG), landed * kDt, 0.05);
+    // It hits with a corner and turns at 80 rad/s.
+    found.atMost("deepest penetration / spacing", 0.25, deepest);
     found.atMost("speed 3 s after release, m/s", 1e-3, after);
     found.atMost("shape, change / spacing", 1e-3, deformation(before, placesOf(lab)) / 0.004);
     found.atMost("moving particles at the end", 0, lab.counters().moving);

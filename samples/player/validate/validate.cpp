@@ -24,7 +24,8 @@ struct Suite {
 std::vector<Suite> suites() {
     return {{"motion",
              "liquids, solids and colliders at one step per frame",
-             {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases(), softCases(), rigidCases()}},
+             {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases(), softCases(), rigidCases(),
+              pieceCases()}},
             {"heat", "conduction, loss and phase change", {conductionCases()}}};
 }
 

@@ -47,6 +47,7 @@ CaseList impactCases();
 CaseList filmCases();
 CaseList softCases();
 CaseList rigidCases();
+CaseList pieceCases();
 CaseList conductionCases();
 
 } // namespace thaw::player
