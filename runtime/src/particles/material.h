@@ -51,7 +51,11 @@ struct Material {
         const float thick = def.yieldStress / (rate + kCreep);
         return def.flow == thawFlow_casson ? thick + 2 * std::sqrt(thick * mu) : thick;
     }
-    float conductivity(float phi) const { return (1 - phi) * def.conductivitySolid + phi * def.conductivityLiquid; }
+    float conductivity(float phi) const {
+        const float a = def.conductivitySolid, b = def.conductivityLiquid;
+        const float mix = phi * a + (1 - phi) * b;
+        return mix > 0 ? a * b / mix : 0;
+    }
 };
 
 } // namespace thaw

@@ -49,5 +49,6 @@ CaseList softCases();
 CaseList rigidCases();
 CaseList pieceCases();
 CaseList conductionCases();
+CaseList stefanCases();
 
 } // namespace thaw::player
