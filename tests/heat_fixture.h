@@ -33,6 +33,7 @@ struct HeatFixture {
     std::vector<float> pendingTemperature;
     uint64_t colliderVersion = 1;
     float ambient = 293.15f, convection = 0, rayRefresh = 1;
+    int cycles = 80;
     HeatStats total;
     int exposed = 0;
 
@@ -133,7 +134,8 @@ struct HeatFixture {
                 ambient,
                 convection,
                 spacing,
-                rayRefresh};
+                rayRefresh,
+                cycles};
     }
     enum Stage { kRadiation = 1, kConduction = 2, kLoss = 4, kAll = 7 };
     void step(double dt, int stages = kAll) {

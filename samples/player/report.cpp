@@ -192,6 +192,7 @@ std::string Report::json() const {
                         {"pressureIterations", plan_.work.pressureIterations},
                         {"viscosityIterations", plan_.work.viscosityIterations},
                         {"heatInterval", plan_.work.heatInterval},
+                        {"heatCycles", plan_.work.heatCycles},
                         {"rayRefresh", plan_.work.rayRefresh},
                         {"predictedMilliseconds", plan_.predictedMs}};
     root["motion"] = {{"maxSpeed", c.maxSpeed},

@@ -262,6 +262,7 @@ TEST_CASE("api: step refuses bad time steps and budgets and changes nothing") {
         {"milliseconds", [](thawBudget& b) { b.mode = thawBudget_milliseconds, b.milliseconds = NAN; }},
         {"subSteps", [](thawBudget& b) { b.work.subSteps = 0; }},
         {"rayRefresh", [](thawBudget& b) { b.work.rayRefresh = 2; }},
+        {"heatCycles", [](thawBudget& b) { b.work.heatCycles = 0; }},
         {"heatInterval", [](thawBudget& b) { b.work.heatInterval = 100; }},
         {"mode", [](thawBudget& b) { store(b.mode, 9); }},
     };

@@ -54,7 +54,7 @@ TEST_CASE("material: the heat between solidus and liquidus") {
     CHECK(m.enthalpy(325) - m.enthalpy(315) == doctest::Approx(22000));
     CHECK(m.enthalpy(341) - m.enthalpy(331) == doctest::Approx(24000));
     CHECK(m.liquidFraction(0.25 * m.latent) == doctest::Approx(0.25));
-    CHECK(m.conductivity(0.5f) == doctest::Approx(0.195f));
+    CHECK(m.conductivity(0.5f) == doctest::Approx(2 * 0.24f * 0.15f / (0.24f + 0.15f)));
     // Log blend.
     CHECK(m.viscosity(0.5f) == doctest::Approx(10).epsilon(1e-4).scale(0));
     CHECK(m.viscosity(0) == doctest::Approx(1e4).epsilon(1e-4).scale(0));

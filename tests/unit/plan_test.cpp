@@ -4,11 +4,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 using namespace thaw;
 
 namespace {
 
-constexpr thawWork kFull{4, 4, 12, 1, 1.0f, 1};
+constexpr thawWork kFull{4, 4, 12, 1, 1.0f, 1, 80};
 
 Needs busy() {
     Needs n;
@@ -20,17 +22,19 @@ Needs busy() {
 // A machine with fixed prices per unit; what the governor should find out.
 struct Machine {
     double slow = 1;
+    int heatCycles = 1; // that heat needs
     float cost(const Needs& n, const thawWork& w, Governor::Cost& c) const {
         c = {};
         c.particles = n.particles, c.movers = n.movers, c.exposed = n.exposed;
         c.subSteps = 1, c.pressureIterations = w.pressureIterations, c.viscosityIterations = w.viscosityIterations;
         c.rays = static_cast<int>(w.rayRefresh * static_cast<float>(n.exposed));
-        c.heatRan = true;
+        c.heatRan = true, c.heatWanted = heatCycles;
+        c.heatPasses = heatCycles <= w.heatCycles ? heatCycles : std::min(30, w.heatCycles);
         auto ms = [&](double ns, double units) { return static_cast<float>(slow * ns * units * 1e-6); };
         c.stageMs[thawStage_neighbors] = ms(60, n.particles);
         c.stageMs[thawStage_exposure] = ms(15, n.particles);
         c.stageMs[thawStage_radiation] = ms(300, c.rays);
-        c.stageMs[thawStage_conduction] = ms(30, n.particles);
+        c.stageMs[thawStage_conduction] = ms(30, static_cast<double>(n.particles) * c.heatPasses);
         c.stageMs[thawStage_forces] = ms(60, n.movers);
         c.stageMs[thawStage_viscosity] = ms(20, static_cast<double>(n.movers) * (w.viscosityIterations + 1));
         c.stageMs[thawStage_pressure] = ms(25, static_cast<double>(n.movers) * w.pressureIterations);
@@ -155,10 +159,22 @@ TEST_CASE("governor: climbs back one level at a time and only after many good fr
     CHECK(now.viscosityIterations > low.viscosityIterations);
 }
 
+TEST_CASE("governor: many sub-cycles of heat are cut to what fits") {
+    Governor g;
+    Machine m;
+    m.heatCycles = 60; // 18 ms of them
+    thawWork w{};
+    for (int i = 0; i < 120; ++i) frame(g, m, busy(), 30, &w);
+    CHECK(w.heatCycles >= 60);
+    for (int i = 0; i < 10; ++i) frame(g, m, busy(), 5, &w);
+    for (int i = 0; i < 100; ++i) CHECK(frame(g, m, busy(), 5, &w) <= 5);
+    CHECK(w.heatCycles < 30);
+}
+
 TEST_CASE("governor: never more than the host's limit") {
     Governor g;
     float predicted;
-    thawWork limit{2, 3, 5, 2, 0.5f, 1};
+    thawWork limit{2, 3, 5, 2, 0.5f, 1, 10};
     thawWork w = g.choose(busy(), 1e4f, limit, 8, predicted);
     CHECK(w.subSteps <= 2);
     CHECK(w.pressureIterations == 3);

@@ -395,6 +395,9 @@ typedef struct thawWork {
     int32_t heatInterval;        /* heat every n-th step, energy-exact; range 1..8 */
     float rayRefresh;            /* share of visibility rays cast anew in a step; range 0.05..1 */
     int32_t leastSubSteps;       /* at least this many, for accuracy; range 1..16, default 1; subSteps goes before it */
+    int32_t heatCycles;          /* explicit sub-cycles of conduction at most; range 1..1000. A step that needs more (a
+                                    large thermalTimeScale) goes implicitly: bounded, exact in energy, but up to a
+                                    quarter behind where something melts */
 } thawWork;
 
 typedef enum thawBudgetMode {
@@ -406,7 +409,8 @@ typedef struct thawBudget {
     uint32_t structSize, cookie;
     thawBudgetMode mode; /* default thawBudget_work */
     float milliseconds;  /* > 0 in its mode, at most 1e4; default 4 */
-    thawWork work;       /* default: 4 sub-steps at most, 4 pressure, 12 viscosity, heat every step, all rays */
+    thawWork work;       /* default: 4 sub-steps at most, 4 pressure, 12 viscosity, heat every step, all rays,
+                            80 sub-cycles of conduction */
 } thawBudget;
 THAW_API void thawInitBudget(thawBudget* budget);
 

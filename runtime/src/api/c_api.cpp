@@ -189,6 +189,7 @@ void checkWork(Check& c, const thawWork& w) {
     c.range("work.viscosityIterations", w.viscosityIterations, 1, 200);
     c.range("work.heatInterval", w.heatInterval, 1, 8);
     c.range("work.rayRefresh", w.rayRefresh, 0.05, 1);
+    c.range("work.heatCycles", w.heatCycles, 1, 1000);
 }
 
 void checkBudget(Check& c, const thawBudget& b) {
@@ -229,7 +230,7 @@ thawBudget defaultBudget() {
     b.structSize = sizeof b, b.cookie = thaw::kDefCookie;
     b.mode = thawBudget_work;
     b.milliseconds = 4;
-    b.work = {4, 4, 12, 1, 1.0f, 1};
+    b.work = {4, 4, 12, 1, 1.0f, 1, 80};
     return b;
 }
 

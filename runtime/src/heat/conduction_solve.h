@@ -18,6 +18,8 @@ public:
 
     // walls: per row, or null. Returns what came in from them, J.
     double run(const HeatFrame& f, const WallContact* walls);
+    int cyclesWanted() const { return wanted; } // of the last run, explicitly
+    int passes() const { return done; }         // over all pairs
 
 private:
     struct Sums {
@@ -32,6 +34,7 @@ private:
     double fromWall(const HeatFrame& f, size_t k, double kelvin) const;
     template <class F> Sums sumRows(const HeatFrame& f, F&& row);
 
+    int wanted = 0, done = 0;
     const WallContact* walls = nullptr;                                  // of this step
     Array<Vec4> state;                                                   // see ConductionPass
     Array<float> flow, weight;                                           // of the pair pass

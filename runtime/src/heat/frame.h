@@ -32,12 +32,14 @@ struct HeatFrame {
     float convection; // W/(m^2 K)
     float spacing;    // m
     float rayRefresh; // share of the exposed particles whose rays are cast anew
+    int cycles = 80;  // explicit sub-cycles of conduction at most
 };
 
 struct HeatStats {
     double absorbed = 0, contact = 0;  // J in this step, from sources and from walls
     double emitted = 0, convected = 0; // J, losses
     int rays = 0;
+    int cyclesWanted = 0, passes = 0; // of conduction over all pairs: explicitly needed, done
     bool raysReduced = false;
 };
 

@@ -111,6 +111,7 @@ void Heat::conduction(const HeatFrame& f) {
     Impl& m = *impl_;
     m.begin(stats_);
     stats_.contact = m.conduction.run(f, m.contact.find(f));
+    stats_.cyclesWanted = m.conduction.cyclesWanted(), stats_.passes = m.conduction.passes();
 }
 
 void Heat::loss(const HeatFrame& f) {

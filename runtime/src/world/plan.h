@@ -36,6 +36,7 @@ public:
     struct Cost {
         float stageMs[thawStage_count];
         int particles, movers, exposed, rays, subSteps, pressureIterations, viscosityIterations; // iterations summed
+        int heatWanted, heatPasses; // explicit sub-cycles of conduction that the step needed; passes that it did
         bool heatRan;
     };
     void learn(const Cost& cost);
@@ -46,12 +47,13 @@ private:
     float perParticle_ = 8e-5f;     // lists and sort, per particle and sub-step
     float perExposure_ = 2e-5f;     // exposure, hold and stats, per particle
     float perRay_ = 4e-4f;          // per ray; a quarter of it per exposed particle
-    float perHeat_ = 4e-5f;         // conduction, loss, integration, per particle
+    float perHeat_ = 2e-5f;         // conduction, loss, integration, per particle and pass
     float perMover_ = 8e-5f;        // forces, collision, per mover and sub-step
     float perViscosity_ = 2.5e-5f;  // per mover and iteration
     float perPressure_ = 2.5e-5f;   // per mover and iteration
     float fixed_ = 0.05f;           // per step
     float viscosityPerSubStep_ = 8; // iterations that a sub-step really takes
+    int heatWanted_ = 1;            // sub-cycles of the last heat
     int quality_ = 0;
     int goodFrames_ = 0;
 };

@@ -198,6 +198,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     cost.particles = particles.count, cost.movers = now.movers, cost.exposed = exposed_, cost.rays = heatStats.rays;
     cost.subSteps = subSteps, cost.pressureIterations = counters_.pressureIterations;
     cost.viscosityIterations = counters_.viscosityIterations, cost.heatRan = heated;
+    cost.heatWanted = heatStats.cyclesWanted, cost.heatPasses = heatStats.passes;
     governor_.learn(cost);
     if (budget.mode == thawBudget_milliseconds && profile.step > budget.milliseconds) status |= thawStep_overBudget;
     return status;
@@ -448,7 +449,8 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
             def.ambientTemperature,
             def.convection,
             def.particleSpacing,
-            work.rayRefresh};
+            work.rayRefresh,
+            work.heatCycles};
 }
 
 HoldFrame World::holdFrame(float dt, bool relabel) {

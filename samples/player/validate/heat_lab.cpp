@@ -49,9 +49,17 @@ void Bar::section(const thawMaterialDef& material, int layers, double temperatur
     }
 }
 
-void Bar::plate(double temperature, double conductivity) {
-    section(stays(3e4, 1e5, std::min(1e4, 1000 * conductivity)), 3, temperature);
+void Bar::hold(float x, float direction, double temperature) {
+    thawColliderDef d;
+    thawInitColliderDef(&d, thawCollider_plane);
+    d.position = {x, 0, 0};
+    d.rotation = turnTo({0, 1, 0}, {direction, 0, 0});
+    d.temperature = static_cast<float>(temperature);
+    lab.collider(d);
 }
+
+void Bar::holdBegin(double temperature) { hold(0, 1, temperature); }
+void Bar::holdEnd(double temperature) { hold(static_cast<float>(layers_) * spacing_, -1, temperature); }
 
 void Bar::run(double seconds) {
     const int steps = static_cast<int>(std::lround(seconds / stepSeconds()));

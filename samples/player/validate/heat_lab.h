@@ -25,8 +25,9 @@ public:
     Bar(float spacing, int width, int maxParticles, float timeScale, double ambient);
     // Appends `layers` layers.
     void section(const thawMaterialDef& material, int layers, double temperature);
-    // A plate that keeps its temperature: 1000 times the heat and 1000 times the conductivity of anything else here.
-    void plate(double temperature, double conductivity);
+    // A wall at this temperature where the bar begins, or where it ends now; perfect contact.
+    void holdBegin(double temperature);
+    void holdEnd(double temperature);
     // Heat seconds of n steps; steps until `seconds` of heat have passed, in whole steps.
     double stepSeconds() const { return timeScale_ / 60.0; }
     void run(double seconds);
@@ -39,6 +40,7 @@ public:
     Lab lab;
 
 private:
+    void hold(float x, float direction, double temperature);
     std::vector<double> means(const float* values) const;
     float spacing_, timeScale_;
     int width_, layers_ = 0;
