@@ -301,7 +301,7 @@ void Motion::holdAtWalls(const MotionFrame& f, size_t i) {
             into -= dot(held.xyz(), heldVelocity_[i].xyz());
         if (into < need) {
             v += (need - into) * held.xyz();
-            if (piece) piece->impulse -= (velocity.w * piece->share * (need - into)) * held.xyz();
+            if (piece) piece->impulse -= (velocity.w * (need - into)) * held.xyz();
             if (reporting_) heldKick_[i].setXyz(heldKick_[i].xyz() + (need - into) * held.xyz());
         }
     }

@@ -205,7 +205,7 @@ void Motion::move(const MotionFrame& f) {
                 sweep(Obstacles{walls, f.neighbors, p, p.bondSlot[i] ? nothing : held, heldSpeed}, tally, spacing,
                       p.velocity[i].w, thin, f.dt, x, v, reporting_ || piece ? &kick : nullptr);
                 if (reporting_) heldKick_[i].setXyz(heldKick_[i].xyz() + kick.xyz());
-                if (piece) piece->impulse -= (p.velocity[i].w * piece->share) * kick.xyz();
+                if (piece) piece->impulse -= p.velocity[i].w * kick.xyz();
                 p.velocity[i].setXyz(v);
             }
             target_[i] = {x.x, x.y, x.z, p.bondSlot[i] ? -p.position[i].w : p.position[i].w};

@@ -30,6 +30,7 @@ struct RigidPiece {
     Double3 load, restLoad; // N: push of other pieces and of liquid; now, and when it fell asleep
     Box bounds;             // m, of its rows
 
+    Rotation3 turnIn(double time) const; // free of torque
     Double3 velocityAt(Double3 x) const { return velocity + cross(spin, x - center); }
     double reach() const { return length(velocity) + length(spin) * radius; } // m/s, of its fastest point at most
     void push(Double3 impulse, Double3 at) {

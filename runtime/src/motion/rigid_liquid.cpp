@@ -17,7 +17,7 @@ void hand(RigidPiece& b, Double3 impulse, Double3 at) {
 
 } // namespace
 
-RigidLiquid::RigidLiquid(Allocator& a) : pairs_(a), near_(a), nearOf_(a), weight_(a), unknowns_(a), group_(a) {}
+RigidLiquid::RigidLiquid(Allocator& a) : pairs_(a), near_(a), nearOf_(a), eased_(a), unknowns_(a), group_(a) {}
 
 void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback, Vec4* wall) {
     const Particles& p = f.particles;
@@ -62,37 +62,39 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback
     }
     if (pairs_.empty()) return;
 
-    // What a mover lies against: mostly the piece of its nearest pair, and what is held beside it.
-    nearOf_.assign(movers, 0), weight_.resizeRaw(movers);
+    // What a mover lies against. Of several pieces each has its share: melt between two that fly apart would hold on to
+    // one of them and to the room: a rod that melts through in flight was off its way by 3 mm/s, 1e-6 so.
+    nearOf_.assign(movers, 0), eased_.assign(movers, 0);
     for (const Pair& q : pairs_) {
         uint32_t& n = nearOf_[q.mover];
-        if (!n) {
-            near_.push({q.mover, static_cast<uint16_t>(q.slot + 1), 0, {}});
-            n = static_cast<uint32_t>(near_.size()), weight_[q.mover] = q.push;
-        } else if (q.push > weight_[q.mover]) {
-            near_[n - 1].piece = static_cast<uint16_t>(q.slot + 1), weight_[q.mover] = q.push;
-        }
+        if (n) continue;
+        near_.push({q.mover, {}, {}, {}});
+        n = static_cast<uint32_t>(near_.size());
     }
     const PairLists lists(f.neighbors);
     for (Near& n : near_) {
-        float own = 0, all = 0;
+        float all = 0;
         const uint32_t g = n.mover >> 3;
         const size_t start = lists.first[g] + (n.mover & 7);
         for (uint32_t e = 0; e < lists.width[g]; ++e) {
             const size_t at = start + 8 * static_cast<size_t>(e), j = lists.entries[at] >> 4;
             if (j < movers || j >= static_cast<size_t>(p.count)) continue;
             all -= lists.gradient[at];
-            if (p.piece[j] == n.piece) own -= lists.gradient[at];
+            for (int k = 0; p.piece[j] && k < Near::kPieces; ++k) {
+                if (n.piece[k] && n.piece[k] != p.piece[j]) continue;
+                n.piece[k] = p.piece[j], n.share[k] -= lists.gradient[at];
+                break;
+            }
         }
-        n.share = all > 0 ? own / all : 0;
+        for (float& share : n.share) share = all > 0 ? share / all : 0;
     }
     // Beside a free piece the whole share makes it oscillate and blow up within a second.
     for (const Unknown& u : unknowns_)
         for (size_t k = u.firstPair; k < u.endPair; ++k) {
             Vec4& w = wall[pairs_[k].mover];
-            if (weight_[pairs_[k].mover] < 0 || !(w.w > 0)) continue;
+            if (eased_[pairs_[k].mover] || !(w.w > 0)) continue;
             w.w *= std::min(1.0f, kFeedbackBesidePiece / feedback);
-            weight_[pairs_[k].mover] = -1; // once
+            eased_[pairs_[k].mover] = 1;
         }
 }
 
@@ -103,9 +105,13 @@ RigidLiquid::Unknown* RigidLiquid::unknownOf(uint16_t piece) {
 }
 
 Vec3 RigidLiquid::velocityAt(const MotionFrame& f, const Near& n) const {
-    const RigidPiece& b = rigid_->pieceOf(n.piece);
-    if (b.asleep) return {};
-    return n.share * narrow(b.velocityAt(wide(f.particles.position[n.mover].xyz())));
+    const Double3 x = wide(f.particles.position[n.mover].xyz());
+    Vec3 v;
+    for (int k = 0; k < Near::kPieces && n.piece[k]; ++k) {
+        const RigidPiece& b = rigid_->pieceOf(n.piece[k]);
+        if (!b.asleep) v += n.share[k] * narrow(b.velocityAt(x));
+    }
+    return v;
 }
 
 void RigidLiquid::factorise(const MotionFrame& f, Unknown& u) {
@@ -266,9 +272,11 @@ void RigidLiquid::press(const MotionFrame& f, const Vec4* point) {
 
 void RigidLiquid::pushSwept(const MotionFrame& f) {
     for (Near& n : near_) {
-        RigidPiece& b = rigid_->pieces()[n.piece - 1u];
-        if (!b.asleep && (n.impulse.x != 0 || n.impulse.y != 0 || n.impulse.z != 0))
-            b.push(wide(n.impulse), wide(f.particles.position[n.mover].xyz()));
+        if (n.impulse.x == 0 && n.impulse.y == 0 && n.impulse.z == 0) continue;
+        for (int k = 0; k < Near::kPieces && n.piece[k]; ++k) {
+            RigidPiece& b = rigid_->pieces()[n.piece[k] - 1u];
+            if (!b.asleep) b.push(wide(n.share[k] * n.impulse), wide(f.particles.position[n.mover].xyz()));
+        }
         n.impulse = {};
     }
 }
@@ -276,7 +284,9 @@ void RigidLiquid::pushSwept(const MotionFrame& f) {
 void RigidLiquid::settle(const MotionFrame& f) {
     for (Near& n : near_) {
         if (n.impulse.x == 0 && n.impulse.y == 0 && n.impulse.z == 0) continue;
-        hand(rigid_->pieces()[n.piece - 1u], wide(n.impulse), wide(f.particles.position[n.mover].xyz()));
+        for (int k = 0; k < Near::kPieces && n.piece[k]; ++k)
+            hand(rigid_->pieces()[n.piece[k] - 1u], wide(n.share[k] * n.impulse),
+                 wide(f.particles.position[n.mover].xyz()));
         n.impulse = {};
     }
     rigid_->settle(f);

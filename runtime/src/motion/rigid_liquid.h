@@ -16,13 +16,14 @@ class RigidLiquid {
 public:
     explicit RigidLiquid(Allocator& allocator);
 
-    // A mover that lies against a piece: how much of what it lies against is that piece, and the impulse that holding
+    // A mover that lies against pieces: how much of what it lies against is each of them, and the impulse that holding
     // it out took.
     struct Near {
+        static constexpr int kPieces = 3;
         uint32_t mover;
-        uint16_t piece;
-        float share; // 0..1
-        Vec3 impulse;
+        uint16_t piece[kPieces]; // 0: no more
+        float share[kPieces];    // 0..1
+        Vec3 impulse;            // N s, on all that it lies against
     };
 
     struct Six {
@@ -81,7 +82,7 @@ private:
     Array<Pair> pairs_;
     Array<Near> near_;
     Array<uint32_t> nearOf_; // per mover: index + 1
-    Array<float> weight_;    // per mover near a piece: of its nearest pair
+    Array<uint8_t> eased_;   // per mover: its density error is fed back less
     Array<Unknown> unknowns_;
     Array<uint32_t> group_;
 };

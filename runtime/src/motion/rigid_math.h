@@ -74,7 +74,17 @@ inline void solve(const double (&factor)[6][6], double (&b)[6]) {
 struct Rotation3 {
     Double3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
     Double3 apply(Double3 v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
+    Double3 applyBack(Double3 v) const { return v.x * x + v.y * y + v.z * z; }
 };
+// a after b.
+inline Rotation3 operator*(const Rotation3& a, const Rotation3& b) {
+    return {b.applyBack(a.x), b.applyBack(a.y), b.applyBack(a.z)};
+}
+// R S R^T
+inline Symmetric3 turned(const Rotation3& r, const Symmetric3& s) {
+    const Double3 x = s * r.x, y = s * r.y, z = s * r.z;
+    return {dot(r.x, x), dot(r.y, y), dot(r.z, z), dot(r.x, y), dot(r.x, z), dot(r.y, z)};
+}
 // By the vector's direction and length (rad). Own series and a unit quaternion: sin and cos of the C library differ
 // between machines. Exact to rounding below 2 rad, a rotation whatever the angle.
 inline Rotation3 rotationBy(Double3 angle) {

@@ -231,7 +231,7 @@ void Rigid::integrate(const MotionFrame& f, uint32_t slot) {
     const double time = shares_[slot] * static_cast<double>(f.dt);
     const Double3 to = b.center + time * b.velocity;
     const bool turns = b.spin.x != 0 || b.spin.y != 0 || b.spin.z != 0;
-    const Rotation3 turn = rotationBy(time * b.spin);
+    const Rotation3 turn = b.turnIn(time);
     const uint32_t* rows = rowsOf(b);
     for (uint32_t k = 0; k < b.rows; ++k) {
         Vec4& x = p.position[rows[k]];
