@@ -34,6 +34,9 @@ struct HeatFixture {
     uint64_t colliderVersion = 1;
     float ambient = 293.15f, convection = 0, rayRefresh = 1;
     int cycles = 80;
+    int raysPerSource = 16;
+    uint64_t surfaceVersion = 0;
+    const thawRaySystem* rays = nullptr;
     HeatStats total;
     int exposed = 0;
 
@@ -135,7 +138,10 @@ struct HeatFixture {
                 convection,
                 spacing,
                 rayRefresh,
-                cycles};
+                cycles,
+                raysPerSource,
+                surfaceVersion,
+                rays};
     }
     enum Stage { kRadiation = 1, kConduction = 2, kLoss = 4, kAll = 7 };
     void step(double dt, int stages = kAll) {

@@ -31,6 +31,23 @@ void printMesh(const scene::TriMesh& mesh, const thawMeshReport& r) {
                 repairs(r).c_str());
 }
 
+std::string sourceText(const scene::HeatSource& h) {
+    const std::string place = " at " + vectorText(h.position) + " m", kelvin = formatted("%g K", double(h.temperature));
+    switch (h.type) {
+    case thawHeatSource_point:
+        return formatted("%g W", double(h.power)) + place + formatted(", radius %g m", double(h.radius));
+    case thawHeatSource_sphere:
+        return "sphere, " + kelvin + place + formatted(", radius %g m", double(h.radius));
+    case thawHeatSource_rectangle:
+        return "rectangle, " + kelvin + place + formatted(", %g by %g m", double(h.size.x), double(h.size.z));
+    case thawHeatSource_disc:
+        return "disc, " + kelvin + place + formatted(", radius %g m", double(h.radius));
+    case thawHeatSource_directional:
+        return formatted("directional, %g W/m^2", double(h.irradiance));
+    }
+    return "";
+}
+
 int info(const std::string& file) {
     const scene::Scene scene = scene::loadScene(file);
     const scene::SceneMeshes meshes = scene::loadMeshes(scene);
@@ -90,8 +107,8 @@ int info(const std::string& file) {
     }
     std::printf("heat sources: %zu\n", scene.heatSources.size());
     for (const scene::HeatSource& h : scene.heatSources)
-        std::printf("  %s: %g W at %s m, radius %g m%s\n", scene::oneLine(h.name, 80).c_str(), double(h.power),
-                    vectorText(h.position).c_str(), double(h.radius), h.enabled ? "" : ", off");
+        std::printf("  %s: %s%s\n", scene::oneLine(h.name, 80).c_str(), sourceText(h).c_str(),
+                    h.enabled ? "" : ", off");
 
     const thawBudget budget = makeBudget(scene, 0.0, "");
     thawPlan plan;

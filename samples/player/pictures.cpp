@@ -102,7 +102,7 @@ Pictures::Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, 
         s.scene.meshes.push_back(
             instance(scene.props[i].shape, meshes.props[i], scene.props[i].placement, scene.props[i].color));
     for (const scene::HeatSource& h : scene.heatSources) {
-        if (!h.enabled || h.visual == scene::SourceVisual::none) continue;
+        if (!h.enabled || h.visual == scene::SourceVisual::none || h.type == thawHeatSource_directional) continue;
         view::Glow glow;
         glow.position = h.position;
         glow.power =

@@ -194,6 +194,7 @@ std::string Report::json() const {
                         {"heatInterval", plan_.work.heatInterval},
                         {"heatCycles", plan_.work.heatCycles},
                         {"rayRefresh", plan_.work.rayRefresh},
+                        {"raysPerSource", plan_.work.raysPerSource},
                         {"predictedMilliseconds", plan_.predictedMs}};
     root["motion"] = {{"maxSpeed", c.maxSpeed},
                       {"maxCompression", c.maxCompression},

@@ -97,6 +97,12 @@ struct HeatSource {
     float radius = 0.005f; // m, range 1e-4..10
     bool enabled = true;
     SourceVisual visual = SourceVisual::glow;
+    thawHeatSourceType type = thawHeatSource_point;
+    thawQuat rotation{0.0f, 0.0f, 0.0f, 1.0f}; // rectangle, disc, directional: shines along its local +y
+    thawVec3 size{0.1f, 0.0f, 0.1f};           // rectangle: edge lengths x and z in m, range 2e-4..2e4; y is not read
+    float temperature = 1300.0f;               // K, sphere, rectangle, disc; range 0..1e9
+    float emissivity = 1.0f;                   // of the same, range 0..1
+    float irradiance = 1000.0f;                // W/m^2, directional; range -1e12..1e12
 };
 
 // Seen only: a wick, a spoon. Takes no part in the simulation.

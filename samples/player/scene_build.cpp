@@ -229,6 +229,12 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
         d.power = h.power;
         d.radius = h.radius;
         d.enabled = h.enabled;
+        d.type = h.type;
+        d.rotation = h.rotation;
+        d.size = {0.5f * h.size.x, d.size.y, 0.5f * h.size.z};
+        d.temperature = h.temperature;
+        d.emissivity = h.emissivity;
+        d.irradiance = h.irradiance;
         thawHeatSourceId id{};
         const thawResult result = thawCreateHeatSource(raw, &d, &id);
         if (result != thawResult_ok) refused(scene, placeOf("heatSources", i), result, raw);

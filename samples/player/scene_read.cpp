@@ -276,11 +276,10 @@ private:
     std::vector<std::string> known_;
 };
 
-void readPlacement(Reader& r, Placement& out) {
-    r.vector("position", out.position, -kFar, kFar, "m");
+void readRotation(Reader& r, thawQuat& rotation) {
     double degrees[3];
     const bool turned = r.numbers("rotationDegrees", 3, -3600.0, 3600.0, "degrees", degrees);
-    if (turned) out.rotation = quatFromDegrees(degrees[0], degrees[1], degrees[2]);
+    if (turned) rotation = quatFromDegrees(degrees[0], degrees[1], degrees[2]);
     double q[4];
     if (r.numbers("rotation", 4, -1.01, 1.01, "", q)) {
         if (turned) r.bad(r.at("rotation"), "give either rotation or rotationDegrees");
@@ -289,8 +288,13 @@ void readPlacement(Reader& r, Placement& out) {
             r.bad(r.at("rotation"), "must have length 1, has " + number(std::sqrt(length2)));
         // A float quaternion that is of unit length already stays as it is, so that what was saved reads back the same.
         const double factor = std::abs(length2 - 1.0) > 1e-6 ? 1.0 / std::sqrt(length2) : 1.0;
-        out.rotation = {float(q[0] * factor), float(q[1] * factor), float(q[2] * factor), float(q[3] * factor)};
+        rotation = {float(q[0] * factor), float(q[1] * factor), float(q[2] * factor), float(q[3] * factor)};
     }
+}
+
+void readPlacement(Reader& r, Placement& out) {
+    r.vector("position", out.position, -kFar, kFar, "m");
+    readRotation(r, out.rotation);
     r.real("scale", out.scale, 1e-6, 1e6);
 }
 
@@ -527,10 +531,22 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         Reader r(value, place, file);
         HeatSource source;
         readName(r, source.name, "source", scene.heatSources.size());
-        r.need("position");
+        r.choice("type", source.type,
+                 {{"point", thawHeatSource_point},
+                  {"sphere", thawHeatSource_sphere},
+                  {"rectangle", thawHeatSource_rectangle},
+                  {"disc", thawHeatSource_disc},
+                  {"directional", thawHeatSource_directional}});
+        if (source.type != thawHeatSource_directional) r.need("position");
         r.vector("position", source.position, -kFar, kFar, "m");
+        readRotation(r, source.rotation);
         r.real("power", source.power, -1e6, 1e6, "W");
         r.real("radius", source.radius, 1e-4, 10.0, "m");
+        double edges[2];
+        if (r.numbers("size", 2, 2e-4, 2e4, "m", edges)) source.size = {float(edges[0]), 0.0f, float(edges[1])};
+        r.real("temperature", source.temperature, 0.0, 1e9, "K");
+        r.real("emissivity", source.emissivity, 0.0, 1.0);
+        r.real("irradiance", source.irradiance, -1e12, 1e12, "W/m^2");
         r.flag("enabled", source.enabled);
         r.choice("visual", source.visual,
                  {{"none", SourceVisual::none}, {"flame", SourceVisual::flame}, {"glow", SourceVisual::glow}});

@@ -222,6 +222,17 @@ std::string writeScene(const Scene& scene) {
                  ObjectText o(indent);
                  o.add("name", quoted(source.name));
                  o.add("position", vector(source.position));
+                 constexpr const char* kTypes[] = {"point", "sphere", "rectangle", "disc", "directional"};
+                 if (source.type != thawHeatSource_point) o.add("type", quoted(kTypes[size_t(source.type)]));
+                 const thawQuat& q = source.rotation;
+                 if (q.x != 0.0f || q.y != 0.0f || q.z != 0.0f || q.w != 1.0f)
+                     o.add("rotation", array({q.x, q.y, q.z, q.w}));
+                 const HeatSource plain;
+                 if (source.size.x != plain.size.x || source.size.z != plain.size.z)
+                     o.add("size", array({source.size.x, source.size.z}));
+                 if (source.temperature != plain.temperature) o.add("temperature", shortest(source.temperature));
+                 if (source.emissivity != plain.emissivity) o.add("emissivity", shortest(source.emissivity));
+                 if (source.irradiance != plain.irradiance) o.add("irradiance", shortest(source.irradiance));
                  o.add("power", shortest(source.power));
                  o.add("radius", shortest(source.radius));
                  o.add("enabled", boolean(source.enabled));

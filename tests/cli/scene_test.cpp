@@ -79,8 +79,18 @@ Scene fullScene() {
         s.props.push_back(p);
     }
     s.colliders[0].shape.type = ShapeType::plane;
-    for (SourceVisual v : {SourceVisual::none, SourceVisual::flame, SourceVisual::glow})
-        s.heatSources.push_back({"h", {0.3f, 0.2f, 0.1f}, -17.25f, 0.0125f, v == SourceVisual::none, v});
+    for (SourceVisual v : {SourceVisual::none, SourceVisual::flame, SourceVisual::glow}) {
+        HeatSource h;
+        h.name = "h", h.position = {0.3f, 0.2f, 0.1f}, h.power = -17.25f, h.radius = 0.0125f;
+        h.enabled = v == SourceVisual::none, h.visual = v;
+        if (v == SourceVisual::flame) {
+            h.type = thawHeatSource_rectangle, h.rotation = {0.6f, 0, 0, 0.8f}, h.size = {0.03f, 0, 0.7f};
+            h.temperature = 1234.5f, h.emissivity = 0.3f;
+        } else if (v == SourceVisual::glow) {
+            h.type = thawHeatSource_directional, h.irradiance = -812.5f;
+        }
+        s.heatSources.push_back(h);
+    }
     s.camera = {{1, 2, 3}, {0.5f, 0.25f, 0.1f}, 41.5f};
     s.look = {{0.0f, 0.6f, 0.8f}, 1.7f};
     s.defaults = {12.5f, 2.75f, {0.0f, 1.1f, 2.2f}};
@@ -160,6 +170,14 @@ TEST_CASE("every field of a scene survives writing and reading") {
         CHECK(a.heatSources[i].enabled == b.heatSources[i].enabled);
         CHECK(a.heatSources[i].power == b.heatSources[i].power);
         CHECK(a.heatSources[i].radius == b.heatSources[i].radius);
+        CHECK(a.heatSources[i].type == b.heatSources[i].type);
+        CHECK(a.heatSources[i].rotation.x == b.heatSources[i].rotation.x);
+        CHECK(a.heatSources[i].rotation.w == b.heatSources[i].rotation.w);
+        CHECK(a.heatSources[i].size.x == b.heatSources[i].size.x);
+        CHECK(a.heatSources[i].size.z == b.heatSources[i].size.z);
+        CHECK(a.heatSources[i].temperature == b.heatSources[i].temperature);
+        CHECK(a.heatSources[i].emissivity == b.heatSources[i].emissivity);
+        CHECK(a.heatSources[i].irradiance == b.heatSources[i].irradiance);
         CHECK(a.heatSources[i].position.z == b.heatSources[i].position.z);
     }
     CHECK(std::memcmp(&a.camera, &b.camera, sizeof a.camera) == 0);
@@ -258,6 +276,9 @@ TEST_CASE("what is wrong is named with its place and value") {
         {"\"position\": [0, 0.015, 0]", "\"mesh\": \"a.obj\"", "/bodies/0/mesh: give either shape or mesh"},
         {"\"position\": [0, 0.06, 0], ", "", "at /heatSources/0: key 'position' is missing"},
         {"\"power\": 40", "\"power\": 1e7", "/heatSources/0/power: must be in -1000000..1000000 W, got 10000000.0"},
+        {"\"power\": 40", "\"type\": \"lamp\"",
+         "/heatSources/0/type: must be one of point, sphere, rectangle, disc, directional, got \"lamp\""},
+        {"\"power\": 40", "\"type\": \"sphere\", \"temperature\": -1", "/heatSources/0/temperature: must be in"},
         {"\"power\": 40", "\"enabled\": 1", "/heatSources/0/enabled: must be true or false, got 1"},
         {"\"power\": 40", "\"visual\": \"spark\"",
          "/heatSources/0/visual: must be one of none, flame, glow, got \"spark\""},

@@ -253,6 +253,7 @@ TEST_CASE("visibility: the same answers as trying every sphere, through refits a
             spheres.push_back({x.x, x.y, x.z, 0.05f}), ids.push_back(nextId++);
         }
         v.setSpheres(spheres.data(), ids.data(), static_cast<int>(spheres.size()));
+        v.commit();
         for (int batch = 0; batch < 20; ++batch) {
             Ray rays[8];
             const int n = 1 + batch % 8;
@@ -283,6 +284,7 @@ TEST_CASE("visibility: the same answers as trying every sphere, through refits a
     // Nothing moved: nothing is done.
     const int refits = v.refits(), rebuilds = v.rebuilds();
     v.setSpheres(spheres.data(), ids.data(), static_cast<int>(spheres.size()));
+    v.commit();
     CHECK(v.refits() == refits);
     CHECK(v.rebuilds() == rebuilds);
     // The neighbourhood of the ray's beginning shades nothing, what is behind it does.
@@ -291,6 +293,7 @@ TEST_CASE("visibility: the same answers as trying every sphere, through refits a
     Ray near = between({0, 0, 0}, {3, 0, 0}), past = between({0, 0, 0}, {9, 0, 0});
     for (float skip : {0.0f, 1.0f}) {
         v.setSpheres(pair, names, 2);
+        v.commit();
         near.skip = past.skip = skip;
         bool nearBlocked = false, pastBlocked = false;
         v.cast(&near, 1, &nearBlocked), v.cast(&past, 1, &pastBlocked);
@@ -298,6 +301,7 @@ TEST_CASE("visibility: the same answers as trying every sphere, through refits a
         CHECK(pastBlocked);
     }
     v.setSpheres(nullptr, nullptr, 0);
+    v.commit();
     Ray ray = between({-3, -3, -3}, {3, 3, 3});
     bool blocked = true;
     v.cast(&ray, 1, &blocked);
@@ -385,7 +389,7 @@ TEST_CASE("heat: part of the rays each step, all within the round") {
         f->refresh();
     }
     for (size_t i = 0; i < part.size(); ++i)
-        fresh[part.particles.id[i]] = (part.particles.flags[i] & kSurface) && part.particles.rayMemory[i] == 0;
+        fresh[part.particles.id[i]] = (part.particles.flags[i] & kSurface) && part.particles.rayAge[i] == 0;
     const std::vector<double> a = absorbed(full), b = absorbed(part);
     CHECK(part.heat.stats().raysReduced);
     int lights = 0;

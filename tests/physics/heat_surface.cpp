@@ -212,7 +212,7 @@ TEST_CASE("heat: nothing a host may set makes a number that is not finite") {
                         f.step(dt);
                         for (size_t i = 0; i < f.size(); ++i) {
                             REQUIRE(std::isfinite(f.particles.enthalpy[i]));
-                            REQUIRE(std::isfinite(f.particles.rayMemory[i]));
+                            REQUIRE(std::isfinite(f.particles.rayChange[i]));
                             REQUIRE(f.particles.temperature[i] >= 0);
                             REQUIRE(f.particles.temperature[i] <= 1.0001e5f);
                         }

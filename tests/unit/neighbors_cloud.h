@@ -51,7 +51,7 @@ struct Cloud {
             particles.liquidFraction[k] = 13 * id;
             particles.pressure[k] = 17 * id;
             particles.stiffness[k] = 19 * id;
-            particles.rayMemory[k] = 23 * id;
+            particles.rayChange[k] = 23 * id;
             particles.id[k] = static_cast<uint32_t>(i);
             particles.body[k] = static_cast<uint16_t>(i * 29);
             particles.material[k] = static_cast<uint8_t>(i * 31);

@@ -237,7 +237,7 @@ TEST_CASE("neighbors: sort puts movers first, follows the cells and keeps each p
                         p.position[k].z == from.position.z && p.position[k].w == from.support &&
                         p.velocity[k].w == f + 3 && p.velocityChange[k].z == -f - 2 && p.normal[k].y == 3 * f &&
                         p.enthalpy[k] == 7.5 * id && p.temperature[k] == 11 * f && p.liquidFraction[k] == 13 * f &&
-                        p.pressure[k] == 17 * f && p.stiffness[k] == 19 * f && p.rayMemory[k] == 23 * f &&
+                        p.pressure[k] == 17 * f && p.stiffness[k] == 19 * f && p.rayChange[k] == 23 * f &&
                         p.body[k] == static_cast<uint16_t>(id * 29) && p.material[k] == static_cast<uint8_t>(id * 31) &&
                         p.level[k] == static_cast<uint8_t>(id * 37) && p.fixed(i) == from.fixed &&
                         bool(p.flags[k] & kSurface) == (id % 3 == 0) && p.fixed(i) == (i >= p.moverCount);

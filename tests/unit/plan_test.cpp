@@ -10,12 +10,12 @@ using namespace thaw;
 
 namespace {
 
-constexpr thawWork kFull{4, 4, 12, 1, 1.0f, 1, 80};
+constexpr thawWork kFull{4, 4, 12, 1, 1.0f, 1, 80, 16};
 
 Needs busy() {
     Needs n;
     n.particles = 10000, n.movers = 3000, n.exposed = 2000;
-    n.sourceOn = true;
+    n.sourceOn = true, n.sources = 1;
     return n;
 }
 
@@ -28,6 +28,7 @@ struct Machine {
         c.particles = n.particles, c.movers = n.movers, c.exposed = n.exposed;
         c.subSteps = 1, c.pressureIterations = w.pressureIterations, c.viscosityIterations = w.viscosityIterations;
         c.rays = static_cast<int>(w.rayRefresh * static_cast<float>(n.exposed));
+        c.mostRays = c.rays;
         c.heatRan = true, c.heatWanted = heatCycles;
         c.heatPasses = heatCycles <= w.heatCycles ? heatCycles : std::min(30, w.heatCycles);
         auto ms = [&](double ns, double units) { return static_cast<float>(slow * ns * units * 1e-6); };
@@ -174,7 +175,7 @@ TEST_CASE("governor: many sub-cycles of heat are cut to what fits") {
 TEST_CASE("governor: never more than the host's limit") {
     Governor g;
     float predicted;
-    thawWork limit{2, 3, 5, 2, 0.5f, 1, 10};
+    thawWork limit{2, 3, 5, 2, 0.5f, 1, 10, 16};
     thawWork w = g.choose(busy(), 1e4f, limit, 8, predicted);
     CHECK(w.subSteps <= 2);
     CHECK(w.pressureIterations == 3);

@@ -134,6 +134,23 @@ typedef struct thawTaskSystem {
     void* user;
 } thawTaskSystem;
 
+/* A way from a particle's surface to a point of a heat source. */
+typedef struct thawRay {
+    thawVec3 origin;    /* m, half a spacing out of the particle's centre */
+    thawVec3 direction; /* unit, to the source */
+    float distance;     /* m, to the source; 1e5 for directional light */
+    uint32_t particle;  /* id of the particle that looks */
+} thawRay;
+
+/* The host's own ray casts in place of Embree: who stands between the melt and the heat. occluded sets blocked[i],
+ * which comes in false, for every ray whose way is not free. It is called during steps from the thread that calls thaw,
+ * with at most 512 rays. The same answers give the same bits. NULL: colliders that are occluders, through Embree. */
+typedef struct thawRaySystem {
+    void (*occluded)(const thawRay* rays, int32_t count, bool* blocked, void* user);
+    bool melt; /* true: it answers for the melt as well and Embree is never started; false: the melt shades itself */
+    void* user;
+} thawRaySystem;
+
 /* ---- world ------------------------------------------------------------------------------------------------------ */
 
 typedef struct thawWorldDef {
@@ -152,6 +169,7 @@ typedef struct thawWorldDef {
     thawAllocator allocator;
     thawLogger logger;
     thawTaskSystem tasks;
+    thawRaySystem rays;
 } thawWorldDef;
 
 THAW_API void thawInitWorldDef(thawWorldDef* def);
@@ -339,12 +357,30 @@ THAW_API thawResult thawCollider_GetImpulse(const thawWorld* world, thawCollider
 
 /* ---- heat sources ----------------------------------------------------------------------------------------------- */
 
+/* Sources with a temperature radiate evenly from all over their surface (Lambert). What they give is net of the ambient
+ * radiation that they hide: at ambient temperature nothing, below it they cool. Colliders that are occluders and the
+ * melt itself shade; what is half hidden gives half. */
+typedef enum thawHeatSourceType {
+    thawHeatSource_point = 0, /* power in all directions alike, inverse square */
+    thawHeatSource_sphere, /* radius, temperature: a flame, a lamp, a coal. Inside of it all is lit from all around */
+    thawHeatSource_rectangle,  /* size.x by size.z about position, shines to local +y only: a heater, an oven's door */
+    thawHeatSource_disc,       /* radius, shines to local +y only */
+    thawHeatSource_directional /* irradiance, along local +y, everywhere: the sun */
+} thawHeatSourceType;
+
 typedef struct thawHeatSourceDef {
     uint32_t structSize, cookie;
-    thawVec3 position; /* m */
-    float power;       /* W, radiated evenly in all directions; range -1e6..1e6 (negative cools), default 20 */
-    float radius;      /* m, no point gets closer than this in the inverse-square law; range 1e-4..10, default 0.005 */
+    thawVec3 position; /* m, each within 1e6; the centre; not read for directional */
+    float power;       /* W, point: radiated evenly in all directions; range -1e12..1e12 (negative cools), default 20 */
+    float radius;      /* m, range 1e-4..10, default 0.005; point: no surface gets closer in the inverse-square law */
     bool enabled;      /* default true */
+    thawHeatSourceType type; /* default thawHeatSource_point */
+    thawQuat rotation;       /* rectangle, disc, directional; default none: shines upward */
+    thawVec3
+        size; /* m, rectangle: half extents in size.x and size.z, each 1e-4..1e4, default 0.05; size.y is not read */
+    float temperature; /* K, sphere, rectangle, disc; range 0..1e9, default 1300. Nothing that it heats passes 1e5 K */
+    float emissivity;  /* 1, of the same; range 0..1, default 1. exitance: emissivity sigma (T^4 - ambient^4) */
+    float irradiance;  /* W/m^2, directional, on a surface that faces it; range -1e12..1e12, default 1000 */
 } thawHeatSourceDef;
 
 THAW_API void thawInitHeatSourceDef(thawHeatSourceDef* def);
@@ -377,7 +413,7 @@ typedef enum thawReason {
     thawReason_noParticles,    /* nothing there */
     thawReason_nothingMoves,   /* no liquid and no loose piece */
     thawReason_nothingChanged, /* last step's result still holds */
-    thawReason_noSource,       /* no enabled source with power */
+    thawReason_noSource,       /* no enabled source that differs from ambient */
     thawReason_nothingExposed, /* no surface that loses or takes up heat */
     thawReason_equilibrium,    /* all at ambient temperature and no source */
     thawReason_timeScaleZero,  /* heat is switched off by thermalTimeScale = 0 */
@@ -393,11 +429,13 @@ typedef struct thawWork {
     int32_t pressureIterations;  /* range 1..64; 4 is enough at rest */
     int32_t viscosityIterations; /* cap of the conjugate gradients; range 1..200 */
     int32_t heatInterval;        /* heat every n-th step, energy-exact; range 1..8 */
-    float rayRefresh;            /* share of visibility rays cast anew in a step; range 0.05..1 */
-    int32_t leastSubSteps;       /* at least this many, for accuracy; range 1..16, default 1; subSteps goes before it */
-    int32_t heatCycles;          /* explicit sub-cycles of conduction at most; range 1..1000. A step that needs more (a
-                                    large thermalTimeScale) goes implicitly: bounded, exact in energy, but up to a
-                                    quarter behind where something melts */
+    float rayRefresh; /* largest share of the lit surface that looks anew in a step who is in the way, where that may
+                         have changed most; range 0.05..1. What cannot have changed is not looked at again */
+    int32_t leastSubSteps; /* at least this many, for accuracy; range 1..16, default 1; subSteps goes before it */
+    int32_t heatCycles;    /* explicit sub-cycles of conduction at most; range 1..1000. A step that needs more (a
+                              large thermalTimeScale) goes implicitly: bounded, exact in energy, but up to a
+                              quarter behind where something melts */
+    int32_t raysPerSource; /* of a particle to a source with an extent; range 1..64, default 16 */
 } thawWork;
 
 typedef enum thawBudgetMode {
@@ -410,7 +448,7 @@ typedef struct thawBudget {
     thawBudgetMode mode; /* default thawBudget_work */
     float milliseconds;  /* > 0 in its mode, at most 1e4; default 4 */
     thawWork work;       /* default: 4 sub-steps at most, 4 pressure, 12 viscosity, heat every step, all rays,
-                            80 sub-cycles of conduction */
+                            80 sub-cycles of conduction, 16 rays a source */
 } thawBudget;
 THAW_API void thawInitBudget(thawBudget* budget);
 

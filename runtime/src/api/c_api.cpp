@@ -178,8 +178,17 @@ void checkSource(Check& c, const thawHeatSourceDef* d) {
     c.initialised("heatSourceDef", d);
     if (!c.ok()) return;
     c.finite("position", d->position, 1e6);
-    c.range("power", d->power, -1e6, 1e6);
+    const int type = valueOf(d->type);
+    if (type < thawHeatSource_point || type > thawHeatSource_directional)
+        c.fail(thawResult_invalidArgument, "type: is not a thawHeatSourceType, got %d", type);
+    c.range("power", d->power, -1e12, 1e12);
     c.range("radius", d->radius, 1e-4, 10);
+    c.rotation("rotation", d->rotation);
+    if (type == thawHeatSource_rectangle)
+        c.range("size.x", d->size.x, 1e-4, 1e4), c.range("size.z", d->size.z, 1e-4, 1e4);
+    c.range("temperature", d->temperature, 0, 1e9);
+    c.range("emissivity", d->emissivity, 0, 1);
+    c.range("irradiance", d->irradiance, -1e12, 1e12);
 }
 
 void checkWork(Check& c, const thawWork& w) {
@@ -190,6 +199,7 @@ void checkWork(Check& c, const thawWork& w) {
     c.range("work.heatInterval", w.heatInterval, 1, 8);
     c.range("work.rayRefresh", w.rayRefresh, 0.05, 1);
     c.range("work.heatCycles", w.heatCycles, 1, 1000);
+    c.range("work.raysPerSource", w.raysPerSource, 1, 64);
 }
 
 void checkBudget(Check& c, const thawBudget& b) {
@@ -230,12 +240,15 @@ thawBudget defaultBudget() {
     b.structSize = sizeof b, b.cookie = thaw::kDefCookie;
     b.mode = thawBudget_work;
     b.milliseconds = 4;
-    b.work = {4, 4, 12, 1, 1.0f, 1, 80};
+    b.work = {4, 4, 12, 1, 1.0f, 1, 80, 16};
     return b;
 }
 
 thaw::HeatSource toSource(const thawHeatSourceDef& d) {
-    return {{d.position.x, d.position.y, d.position.z}, d.power, d.radius, d.enabled, true};
+    const thaw::Transform t = thaw::toTransform(d.position, d.rotation, 1);
+    return {t.position,    d.power,      d.radius,    d.enabled,
+            true,          d.type,       t.rotation,  {d.size.x, d.size.y, d.size.z},
+            d.temperature, d.emissivity, d.irradiance};
 }
 
 } // namespace
@@ -560,6 +573,10 @@ void thawInitHeatSourceDef(thawHeatSourceDef* def) {
     def->power = 20;
     def->radius = 0.005f;
     def->enabled = true;
+    def->rotation = {0, 0, 0, 1};
+    def->size = {0.05f, 0.05f, 0.05f};
+    def->temperature = 1300, def->emissivity = 1;
+    def->irradiance = 1000;
 }
 
 thawResult thawCreateHeatSource(thawWorld* world, const thawHeatSourceDef* def, thawHeatSourceId* outId) {

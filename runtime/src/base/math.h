@@ -41,6 +41,41 @@ inline float detCbrt(float x) {
     return static_cast<float>(y);
 }
 
+// atan within 1e-15: by the nearest quarter, whose arctangent is known, and the series of the rest, |r| <= 1/8.
+inline double detAtan(double x) {
+    constexpr double kKnown[] = {0, 0.24497866312686414, 0.46364760900080612, 0.64350110879328437, 0.78539816339744831};
+    constexpr double kHalfPi = 1.57079632679489662;
+    const double a = std::abs(x), t = a > 1 ? 1 / a : a;
+    const int k = static_cast<int>(4 * t + 0.5);
+    const double c = 0.25 * k, r = (t - c) / (1 + t * c), r2 = r * r;
+    const double series =
+        r * (1 - r2 * (1.0 / 3 - r2 * (1.0 / 5 - r2 * (1.0 / 7 - r2 * (1.0 / 9 - r2 * (1.0 / 11 - r2 / 13))))));
+    const double angle = kKnown[k] + series;
+    return std::copysign(a > 1 ? kHalfPi - angle : angle, x);
+}
+// Angle of (x, y) for y >= 0, 0..pi; 0 at the origin.
+inline double detAngle(double y, double x) {
+    constexpr double kPi = 3.14159265358979324;
+    if (x == 0) return y > 0 ? 0.5 * kPi : 0;
+    return x > 0 ? detAtan(y / x) : kPi + detAtan(y / x);
+}
+// Of x in -1..1 (clamped).
+inline double detAcos(double x) {
+    const double c = x < -1 ? -1 : x > 1 ? 1 : x;
+    return detAngle(std::sqrt((1 - c) * (1 + c)), c);
+}
+// sin and cos of 2 pi u, 0 <= u < 1, within 1e-7.
+inline void detTurn(float u, float& sine, float& cosine) {
+    const int octant = static_cast<int>(8 * u); // of the circle; the rest is within an eighth of it
+    const double x = (u - 0.125 * octant) * 6.28318530717958648, x2 = x * x;
+    const double s = x * (1 - x2 * (1.0 / 6 - x2 * (1.0 / 120 - x2 * (1.0 / 5040 - x2 / 362880))));
+    const double c = 1 - x2 * (0.5 - x2 * (1.0 / 24 - x2 * (1.0 / 720 - x2 / 40320)));
+    constexpr double kDiagonal = 0.70710678118654752;
+    constexpr double kCos[] = {1, kDiagonal, 0, -kDiagonal, -1, -kDiagonal, 0, kDiagonal};
+    const double C = kCos[octant & 7], S = kCos[(octant + 6) & 7];
+    sine = static_cast<float>(s * C + c * S), cosine = static_cast<float>(c * C - s * S);
+}
+
 // FNV-1a style 64-bit mixing over words; order matters.
 inline uint64_t hashCombine(uint64_t h, uint64_t v) {
     h ^= v;

@@ -10,10 +10,17 @@
 
 namespace thaw {
 
+// See thawHeatSourceDef.
 struct HeatSource {
     Vec3 position;
     float power = 0, radius = 0; // W, m
     bool enabled = false, alive = false;
+    thawHeatSourceType type = thawHeatSource_point;
+    Quat rotation{};
+    Vec3 size{};
+    float temperature = 0, emissivity = 1, irradiance = 0; // K, 1, W/m^2
+
+    bool operator==(const HeatSource& o) const;
 };
 
 struct HeatFrame {
@@ -31,8 +38,11 @@ struct HeatFrame {
     float ambient;    // K
     float convection; // W/(m^2 K)
     float spacing;    // m
-    float rayRefresh; // share of the exposed particles whose rays are cast anew
-    int cycles = 80;  // explicit sub-cycles of conduction at most
+    float rayRefresh; // share of the lit particles that may look anew
+    int cycles;       // explicit sub-cycles of conduction at most
+    int raysPerSource;
+    uint64_t surfaceVersion;   // changes with the rows, their places and normals; 0: not known
+    const thawRaySystem* rays; // the host's, or null
 };
 
 struct HeatStats {

@@ -100,6 +100,8 @@ struct Heat::Impl {
 Heat::Heat(Allocator& allocator) : impl_(std::make_unique<Impl>(allocator)) {}
 Heat::~Heat() = default;
 
+uint64_t Heat::hash(uint64_t h) const { return impl_->radiation.hash(h); }
+
 void Heat::radiation(const HeatFrame& f) {
     Impl& m = *impl_;
     m.begin(stats_);

@@ -23,6 +23,8 @@ public:
     void loss(const HeatFrame& f);      // settles each surface particle with what it absorbs, emits, convects
     void integrate(const HeatFrame& f); // absorbs if loss() did not; bounds; temperature, liquid fraction
     const HeatStats& stats() const { return stats_; }
+    // Mixes in what lives on beside the particles.
+    uint64_t hash(uint64_t h) const;
 
 private:
     struct Impl;

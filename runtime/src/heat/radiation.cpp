@@ -1,72 +1,101 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
+//
+// Particles::rayShares remembers of each of the first kRemembered sources which share of it was in sight at the last
+// look, in 254ths; kNotSeen when the source was off or below the horizon then. Particles::rayChange adds up how much of
+// the irradiance may be wrong by now: the possible irradiance of a source times the part of its view that what moved
+// since then can have changed (the particle itself, the source, an occluder on the way to it). Who looks anew is chosen
+// by that change times the age of the last look. Sources beyond the first kRemembered are looked at in every run.
 #include "heat/radiation.h"
 
 #include "base/kernel.h"
+#include "base/math.h"
+#include "heat/sources.h"
 #include "heat/visibility.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace thaw {
 namespace {
 
 constexpr int kRayBlock = 128;
-constexpr double kPi = 3.14159265358979323846;
-
-// Particles::rayMemory remembers, from the last time rays were cast for a particle, which of the first kRemembered
-// sources it saw and how long ago that is: (1 + age) 2^16 + one bit per source, a whole number below 2^22 and so exact
-// in a float; 0 when nothing is known. Rays to the sources beyond are cast in every step.
-constexpr int kRemembered = 16;
-float remember(int age, uint32_t seen) { return static_cast<float>((static_cast<uint32_t>(1 + age) << 16) | seen); }
-bool known(float memory) { return memory >= 65536; }
-int ageOf(float memory) { return static_cast<int>(static_cast<uint32_t>(memory) >> 16) - 1; }
-uint32_t seenOf(float memory) { return static_cast<uint32_t>(memory) & 0xffffu; }
-constexpr int kOldest = 60;
-// What moves is looked at this many times as often as what stands still.
-constexpr int kMoverAge = 3;
-constexpr uint8_t kNoRay = 0, kUnknown = 255;
+constexpr int kRemembered = 8;
+constexpr uint32_t kNotSeen = 255, kAll = 254;
+uint32_t shareOf(uint64_t shares, int source) { return static_cast<uint32_t>(shares >> (8 * source)) & 255u; }
+uint64_t withShare(uint64_t shares, int source, uint32_t share) {
+    return (shares & ~(uint64_t{255} << (8 * source))) | static_cast<uint64_t>(share) << (8 * source);
+}
+// A look is due when the share of the irradiance that may have changed, times the steps since the last look, passes
+// this: at once when something moved by a fiftieth of a spacing, and of a change by a five-thousandth at last.
+constexpr float kEnough = 0.02f;
+constexpr uint8_t kOldest = 100;
+// An obstacle this many spacings off moves its shadow by one when the source moves by 1 / kLever of its distance.
+constexpr float kLever = 40;
+// The host's occluders may move unseen: a look every so many runs.
+constexpr float kHostLooks = 30;
 
 // Of the melt as it shades itself, in spacings. A square lattice of spheres is closed from 0.71 on.
 constexpr float kShadeRadius = 0.75f;
 // Rays leave from above the steps that a tilted surface of a lattice has, and do not see what is closer than kSkip.
 constexpr float kRaise = 1.0f, kSkip = 1.5f;
-// A drop alone, which faces nowhere: its cross-section is a quarter of its surface.
-constexpr float kDropCosine = 0.25f;
 
-// How a source looks from an exposed particle.
-struct View {
-    float flux; // W/m^2 if nothing is in the way; 0 when the particle faces away
-    Ray ray;
+constexpr int kBatch = 512; // rays that are cast together
+struct Batch {
+    Ray rays[kBatch];
+    float weight[kBatch];
+    int16_t owner[kBatch];
+    bool blocked[kBatch];
+    thawRay host[kBatch];
 };
 
-View look(const HeatSource& source, Vec3 x, Vec4 normal, float spacing) {
-    const Vec3 n = normal.xyz();
-    const bool drop = dot(n, n) < 0.25f;
-    View v;
-    v.ray.surface = x + (0.5f * spacing) * n;
-    const Vec3 way = source.position - v.ray.surface;
-    v.ray.distance = length(way);
-    // A source that touches the surface shines straight on it.
-    const bool touching = v.ray.distance < 1e-3f * source.radius;
-    v.ray.direction = touching ? normalizeOr(n, {0, 1, 0}) : normalizeOr(way, {0, 1, 0});
-    v.ray.raised = x + (kRaise * spacing) * (drop ? v.ray.direction : n);
-    v.ray.skip = kSkip * spacing;
-    const float cosine = drop ? kDropCosine : std::max(0.0f, dot(n, v.ray.direction));
-    // Nearer than its own size a particle would take more than the half of all power that its plane can catch.
-    const float d2 = std::max({v.ray.distance * v.ray.distance, source.radius * source.radius,
-                               normal.w * static_cast<float>(0.5 / kPi), 1e-12f});
-    v.flux = source.power * cosine / (4 * static_cast<float>(kPi) * d2);
-    return v;
+Ray rayTo(const Receiver& r, Vec3 center, Vec3 point, float spacing) {
+    Ray ray;
+    ray.surface = r.position;
+    const Vec3 way = point - r.position;
+    ray.distance = length(way);
+    ray.direction = normalizeOr(way, normalizeOr(r.normal, {0, 1, 0}));
+    ray.raised = center + (kRaise * spacing) * (r.drop() ? ray.direction : r.normal);
+    ray.skip = kSkip * spacing;
+    return ray;
 }
 
-bool shines(const HeatSource& s) { return s.alive && s.enabled && s.power != 0; }
+// Does the way from a to b pass the box, grown by `extent` on all sides?
+bool passes(const Box& box, Vec3 a, Vec3 b, float extent) {
+    float enter = 0, leave = 1;
+    const float from[3] = {a.x, a.y, a.z}, to[3] = {b.x, b.y, b.z};
+    const float low[3] = {box.lower.x, box.lower.y, box.lower.z}, high[3] = {box.upper.x, box.upper.y, box.upper.z};
+    for (int k = 0; k < 3; ++k) {
+        const float way = to[k] - from[k], l = low[k] - extent, h = high[k] + extent;
+        if (std::abs(way) < 1e-12f) {
+            if (from[k] < l || from[k] > h) return false;
+            continue;
+        }
+        const float u = (l - from[k]) / way, v = (h - from[k]) / way;
+        enter = std::max(enter, std::min(u, v)), leave = std::min(leave, std::max(u, v));
+    }
+    return enter <= leave;
+}
+
+float uniform(uint64_t bits) { return static_cast<float>(bits & 0xffffff) * (1.0f / 16777216.0f); }
 
 } // namespace
 
+bool HeatSource::operator==(const HeatSource& o) const {
+    const auto fields = [](const HeatSource& s) {
+        return std::array<float, 16>{s.position.x,  s.position.y, s.position.z, s.power,  s.radius, s.rotation.x,
+                                     s.rotation.y,  s.rotation.z, s.rotation.w, s.size.x, s.size.y, s.size.z,
+                                     s.temperature, s.emissivity, s.irradiance, 0};
+    };
+    return fields(*this) == fields(o) && type == o.type && enabled == o.enabled && alive == o.alive;
+}
+
 struct Radiation::Impl {
     explicit Impl(Allocator& a)
-        : allocator(a), exposed(a), spheres(a), sphereIds(a), priority(a), power(a), blockRays(a) {}
+        : allocator(a), exposed(a), spheres(a), sphereIds(a), moved(a), possible(a), importance(a), power(a),
+          blockRays(a), emitters(a), known(a), batches(a) {}
 
     Allocator& allocator;
     std::unique_ptr<Visibility> visibility;
@@ -74,9 +103,35 @@ struct Radiation::Impl {
     Array<int> exposed; // rows
     Array<Vec4> spheres;
     Array<uint32_t> sphereIds;
-    Array<uint8_t> priority; // per exposed: kNoRay, 1 + age, kUnknown
+    Array<float> moved;      // per exposed, m since the last run
+    Array<float> possible;   // per exposed, W/m^2 with nothing in the way
+    Array<float> importance; // per exposed: 0 not lit or nothing new, < 0 left for later, else it looks
     Array<float> power;      // per row, W absorbed
     Array<int> blockRays;
+
+    struct Lit : Emitter {
+        bool fresh;  // it was off at the last run
+        float shift; // m, how far some point of it went since
+    };
+    Array<Lit> emitters;
+    Array<HeatSource> known; // as of the last run
+    Array<Batch> batches;    // per worker
+    float ambient = NAN;
+    uint64_t surfaceVersion = 0, colliderVersion = 0;
+    bool settled = false; // nobody is left to look
+
+    bool nothingChanged(const HeatFrame& f) const;
+    void light(const HeatFrame& f);
+    void findExposed(const HeatFrame& f);
+    void weigh(const HeatFrame& f, int begin, int end);
+    int choose(const HeatFrame& f, HeatStats& stats);
+    int look(const HeatFrame& f, int begin, int end, Batch& batch);
+    void cast(const HeatFrame& f, Batch& batch, int count, const int* rows);
+    Receiver receiver(const HeatFrame& f, size_t row) const {
+        const Vec4 x = f.particles.position[row], n = f.particles.normal[row];
+        return {x.xyz() + (0.5f / kSupport * x.w) * n.xyz(), n.xyz(), n.w};
+    }
+    static float spacingOf(const HeatFrame& f, size_t row) { return f.particles.position[row].w * (1 / kSupport); }
 };
 
 Radiation::Radiation(Allocator& allocator) : impl_(std::make_unique<Impl>(allocator)) {}
@@ -84,118 +139,288 @@ Radiation::~Radiation() = default;
 
 const float* Radiation::power() const { return impl_->power.data(); }
 
-void Radiation::run(const HeatFrame& f, HeatStats& stats) {
-    Impl& m = *impl_;
+uint64_t Radiation::hash(uint64_t h) const {
+    const Impl& m = *impl_;
+    for (const HeatSource& s : m.known) {
+        h = hashCombine(h, static_cast<uint64_t>(s.alive && s.enabled) << 8 | static_cast<uint64_t>(s.type));
+        for (float v :
+             {s.position.x, s.position.y, s.position.z, s.rotation.x, s.rotation.y, s.rotation.z, s.rotation.w})
+            h = hashCombine(h, std::bit_cast<uint32_t>(v));
+    }
+    return m.visibility ? m.visibility->hash(h) : h;
+}
+
+bool Radiation::Impl::nothingChanged(const HeatFrame& f) const {
+    return settled && f.surfaceVersion != 0 && f.surfaceVersion == surfaceVersion &&
+           f.colliderVersion == colliderVersion && f.ambient == ambient && !(f.rays && f.rays->occluded) &&
+           known.size() == static_cast<size_t>(f.sourceCount) && std::equal(known.begin(), known.end(), f.sources);
+}
+
+// Which sources are on, and how they moved.
+void Radiation::Impl::light(const HeatFrame& f) {
+    emitters.clear();
+    for (int s = 0; s < f.sourceCount; ++s) {
+        const HeatSource& source = f.sources[s];
+        if (strengthOf(source, f.ambient) == 0) continue;
+        Lit e{};
+        static_cast<Emitter&>(e) = makeEmitter(source, s, f.ambient);
+        const bool was = static_cast<size_t>(s) < known.size() && known[static_cast<size_t>(s)].type == source.type &&
+                         strengthOf(known[static_cast<size_t>(s)], ambient) != 0;
+        e.fresh = !was;
+        if (was && !(known[static_cast<size_t>(s)] == source)) {
+            const Emitter old = makeEmitter(known[static_cast<size_t>(s)], s, f.ambient);
+            e.shift = length(e.center - old.center) + length(e.across - old.across) + length(e.along - old.along);
+            if (e.type == thawHeatSource_directional) e.shift = length(e.axis - old.axis);
+            if (e.type == thawHeatSource_point) e.shift = length(e.center - old.center);
+        }
+        emitters.push(e);
+    }
+    known.reserve(static_cast<size_t>(f.sourceCount)), known.clear();
+    for (int s = 0; s < f.sourceCount; ++s) known.push(f.sources[s]);
+    ambient = f.ambient;
+}
+
+void Radiation::Impl::findExposed(const HeatFrame& f) {
     Particles& p = f.particles;
     const size_t count = static_cast<size_t>(p.count);
-    m.power.assign(count, 0.0f);
-    m.exposed.clear(), m.exposed.reserve(count);
+    // The surface of a melt grows for as long as it melts: room for all at once.
+    exposed.reserve(count), spheres.reserve(count), sphereIds.reserve(count), moved.reserve(count);
+    possible.reserve(count), importance.reserve(count),
+        blockRays.reserve(static_cast<size_t>(Tasks::blockCount(p.count, kRayBlock)));
+    exposed.clear();
     for (int i = 0; i < p.count; ++i) {
         const size_t k = static_cast<size_t>(i);
         if ((p.flags[k] & kSurface) && p.normal[k].w > 0)
-            m.exposed.push(i);
+            exposed.push(i);
         else
-            p.rayMemory[k] = 0;
+            p.rayAge[k] = 0;
     }
+    const size_t n = exposed.size();
+    spheres.resizeRaw(n), sphereIds.resizeRaw(n), moved.resizeRaw(n), possible.resizeRaw(n), importance.resizeRaw(n);
+    for (size_t at = 0; at < n; ++at) {
+        const size_t row = static_cast<size_t>(exposed[at]);
+        const Vec4 x = p.position[row];
+        spheres[at] = {x.x, x.y, x.z, kShadeRadius * spacingOf(f, row)}, sphereIds[at] = p.id[row];
+        moved[at] = 0;
+    }
+    blockRays.assign(static_cast<size_t>(Tasks::blockCount(static_cast<int>(n), kRayBlock)), 0);
+}
+
+// What the exposed [begin, end) get by what they know, and how much of that is in doubt.
+void Radiation::Impl::weigh(const HeatFrame& f, int begin, int end) {
+    Particles& p = f.particles;
+    const bool host = f.rays && f.rays->occluded;
+    for (int e = begin; e < end; ++e) {
+        const size_t at = static_cast<size_t>(e), row = static_cast<size_t>(exposed[at]);
+        const Receiver r = receiver(f, row);
+        const float spacing = spacingOf(f, row), own = std::min(1.0f, moved[at] / spacing);
+        const bool unknown = p.rayAge[row] == 0;
+        uint64_t shares = unknown ? ~uint64_t{0} : p.rayShares[row];
+        float all = 0, received = 0, change = unknown ? 0.0f : p.rayChange[row], unseen = 0;
+        for (const Lit& s : emitters) {
+            const float flux = irradiance(s, r), size = std::abs(flux);
+            if (size == 0) {
+                if (s.index < kRemembered) shares = withShare(shares, s.index, kNotSeen);
+                continue;
+            }
+            all += size;
+            if (s.index >= kRemembered) continue;
+            const uint32_t share = s.fresh ? kNotSeen : shareOf(shares, s.index);
+            if (share == kNotSeen) {
+                shares = withShare(shares, s.index, kNotSeen), unseen += size;
+                continue;
+            }
+            received += flux * (static_cast<float>(share) * (1.0f / kAll));
+            const Vec3 there = s.type == thawHeatSource_directional ? sample(s, r, 0, 0).point : s.center;
+            float doubt = own + (host ? kEnough / kHostLooks : 0.0f);
+            if (s.shift > 0) {
+                const float far = s.type == thawHeatSource_directional ? 1.0f : length(there - r.position);
+                doubt += std::min(1.0f, kLever * s.shift / std::max(far, 1e-6f));
+            }
+            if (visibility)
+                for (const Stir& stir : visibility->stirs()) {
+                    const float most = std::min(1.0f, stir.amount / spacing);
+                    if (doubt >= 1) break;
+                    if (passes(stir.box, r.position, there, s.extent)) doubt += most;
+                }
+            change += std::min(1.0f, doubt) * size;
+        }
+        const float age = static_cast<float>(p.rayAge[row]);
+        importance[at] = 0;
+        if (all == 0)
+            p.rayAge[row] = 0;
+        else if (unknown)
+            importance[at] = INFINITY;
+        else if ((change + unseen) * age >= kEnough * all)
+            importance[at] = (change + unseen) * age;
+        p.rayShares[row] = shares;
+        p.rayChange[row] = std::min(change, 1e30f);
+        if (!unknown && all > 0 && p.rayAge[row] < kOldest) ++p.rayAge[row];
+        power[row] = received * f.materials[p.material[row]].def.absorptivity * r.area;
+        possible[at] = all;
+    }
+}
+
+// Who looks anew: all who know nothing yet, then those with the largest change times age, of equal ones the first rows.
+// Returns how many.
+int Radiation::Impl::choose(const HeatFrame& f, HeatStats& stats) {
+    // Buckets of a quarter of an octave.
+    constexpr int kBuckets = 1024;
+    const auto bucket = [](float v) { return static_cast<int>(std::bit_cast<uint32_t>(v) >> 21); };
+    int counts[kBuckets] = {};
+    int lit = 0, unknown = 0, wanted = 0;
+    for (size_t at = 0; at < exposed.size(); ++at) {
+        lit += possible[at] > 0;
+        if (importance[at] == 0) continue;
+        ++wanted;
+        if (std::isinf(importance[at]))
+            ++unknown;
+        else
+            ++counts[bucket(importance[at])];
+    }
+    int left = std::max(0, static_cast<int>(std::ceil(f.rayRefresh * static_cast<float>(lit))) - unknown);
+    int threshold = kBuckets; // from here on all; of the bucket below the first `left`
+    while (threshold > 0 && left >= counts[threshold - 1]) left -= counts[--threshold];
+    int chosen = 0;
+    for (float& v : importance) {
+        if (v == 0) continue;
+        const int b = std::isinf(v) ? kBuckets : bucket(v);
+        bool looks = b >= threshold;
+        if (!looks && b == threshold - 1 && left > 0) looks = true, --left;
+        if (!looks) v = -v;
+        chosen += looks;
+    }
+    stats.raysReduced = chosen < wanted;
+    settled = chosen == wanted;
+    return chosen;
+}
+
+void Radiation::Impl::cast(const HeatFrame& f, Batch& b, int count, const int* rows) {
+    std::fill(b.blocked, b.blocked + count, false);
+    const bool host = f.rays && f.rays->occluded;
+    if (visibility)
+        for (int k = 0; k < count; k += 8) visibility->cast(b.rays + k, std::min(8, count - k), b.blocked + k);
+    if (!host) return;
+    for (int k = 0; k < count; ++k) {
+        const Ray& r = b.rays[k];
+        b.host[k] = {{r.surface.x, r.surface.y, r.surface.z},
+                     {r.direction.x, r.direction.y, r.direction.z},
+                     r.distance,
+                     f.particles.id[static_cast<size_t>(rows[b.owner[k]])]};
+    }
+    bool answers[kBatch] = {};
+    f.rays->occluded(b.host, count, answers, f.rays->user);
+    for (int k = 0; k < count; ++k) b.blocked[k] |= answers[k];
+}
+
+// Rays of the exposed [begin, end); returns how many.
+int Radiation::Impl::look(const HeatFrame& f, int begin, int end, Batch& batch) {
+    Particles& p = f.particles;
+    int rays = 0;
+    float gained[kRayBlock] = {};
+    const int columns = std::max(1, static_cast<int>(std::sqrt(static_cast<float>(f.raysPerSource)) + 1e-3f));
+    const int lines = f.raysPerSource / columns;
+    for (const Lit& s : emitters) {
+        const bool remembered = s.index < kRemembered;
+        float seen[kRayBlock] = {}, all[kRayBlock] = {}, flux[kRayBlock] = {};
+        int n = 0;
+        const auto flush = [&] {
+            cast(f, batch, n, exposed.data() + begin);
+            for (int k = 0; k < n; ++k) {
+                all[batch.owner[k]] += batch.weight[k];
+                if (!batch.blocked[k]) seen[batch.owner[k]] += batch.weight[k];
+            }
+            rays += n, n = 0;
+        };
+        for (int e = begin; e < end; ++e) {
+            const size_t at = static_cast<size_t>(e), row = static_cast<size_t>(exposed[at]);
+            if (!(possible[at] > 0) || !(importance[at] > 0 || !remembered)) continue;
+            const Receiver r = receiver(f, row);
+            const int owner = e - begin;
+            flux[owner] = irradiance(s, r);
+            if (flux[owner] == 0) continue;
+            const float spacing = spacingOf(f, row);
+            const auto add = [&](Vec3 point, float weight) {
+                batch.rays[n] = rayTo(r, p.position[row].xyz(), point, spacing);
+                batch.weight[n] = weight, batch.owner[n] = static_cast<int16_t>(owner);
+                ++n;
+            };
+            const int before = n;
+            if (s.area()) {
+                for (int c = 0; c < columns * lines; ++c) {
+                    // The same places at every look, so that what rests does not flicker.
+                    const uint64_t bits = hashCombine(hashCombine(0x52617973, p.id[row]),
+                                                      static_cast<uint64_t>(s.index) << 8 | static_cast<uint64_t>(c));
+                    const float u = (static_cast<float>(c % columns) + uniform(bits)) / static_cast<float>(columns);
+                    const float v = (static_cast<float>(c / columns) + uniform(bits >> 32)) / static_cast<float>(lines);
+                    const Sample to = sample(s, r, u, v);
+                    if (to.weight > 0) add(to.point, to.weight);
+                }
+                // Only a sliver over the horizon.
+                if (n == before) add(highest(s, r), 1);
+            } else {
+                add(sample(s, r, 0, 0).point, 1);
+            }
+            if (n + columns * lines > kBatch) flush();
+        }
+        if (n > 0) flush();
+        for (int e = begin; e < end; ++e) {
+            const int owner = e - begin;
+            if (!(all[owner] > 0)) continue;
+            const float ratio = seen[owner] / all[owner];
+            const uint32_t share = seen[owner] == 0 ? 0
+                                   : seen[owner] == all[owner]
+                                       ? kAll
+                                       : std::clamp(static_cast<uint32_t>(ratio * kAll + 0.5f), 1u, kAll - 1);
+            gained[owner] += flux[owner] * (static_cast<float>(share) * (1.0f / kAll));
+            const size_t row = static_cast<size_t>(exposed[static_cast<size_t>(e)]);
+            if (remembered) p.rayShares[row] = withShare(p.rayShares[row], s.index, share);
+        }
+    }
+    for (int e = begin; e < end; ++e) {
+        const size_t at = static_cast<size_t>(e), row = static_cast<size_t>(exposed[at]);
+        const float absorbs = f.materials[p.material[row]].def.absorptivity * p.normal[row].w;
+        const float gain = gained[e - begin] * absorbs;
+        if (importance[at] > 0)
+            power[row] = gain, p.rayAge[row] = 1, p.rayChange[row] = 0;
+        else
+            power[row] += gain; // of the sources that nobody remembers
+    }
+    return rays;
+}
+
+void Radiation::run(const HeatFrame& f, HeatStats& stats) {
+    Impl& m = *impl_;
+    if (m.nothingChanged(f)) return;
+    m.power.reserve(static_cast<size_t>(f.particles.capacity));
+    m.power.assign(static_cast<size_t>(f.particles.count), 0.0f);
+    m.surfaceVersion = f.surfaceVersion, m.colliderVersion = f.colliderVersion;
+    m.settled = true;
+    m.light(f);
+    m.findExposed(f);
     const int exposed = static_cast<int>(m.exposed.size());
     if (exposed == 0) return;
-
-    // The surface of a melt grows for as long as it melts: room for all at once.
-    m.spheres.reserve(count), m.sphereIds.reserve(count), m.priority.reserve(count);
-    m.spheres.resizeRaw(m.exposed.size()), m.sphereIds.resizeRaw(m.exposed.size());
-    m.priority.resizeRaw(m.exposed.size());
-    m.blockRays.reserve(static_cast<size_t>(Tasks::blockCount(p.count, kRayBlock)));
-    m.blockRays.assign(static_cast<size_t>(Tasks::blockCount(exposed, kRayBlock)), 0);
-    const auto spacingOf = [&](size_t row) { return p.position[row].w * (1 / kSupport); };
-    f.tasks.forBlocks(exposed, kRayBlock, [&](int begin, int end, int, int) {
-        for (int e = begin; e < end; ++e) {
-            const size_t at = static_cast<size_t>(e), row = static_cast<size_t>(m.exposed[at]);
-            const Vec4 x = p.position[row];
-            const float dx = spacingOf(row);
-            m.spheres[at] = {x.x, x.y, x.z, kShadeRadius * dx}, m.sphereIds[at] = p.id[row];
-            bool lit = false;
-            for (int s = 0; s < f.sourceCount && !lit; ++s)
-                lit = shines(f.sources[s]) && look(f.sources[s], x.xyz(), p.normal[row], dx).flux != 0;
-            const float memory = p.rayMemory[row];
-            m.priority[at] = !lit ? kNoRay : known(memory) ? static_cast<uint8_t>(1 + ageOf(memory)) : kUnknown;
-        }
-    });
-
-    // Who gets rays: all that are not known yet, then the oldest memories, those of one age in the order of rows.
-    int ofAge[256] = {};
-    for (uint8_t a : m.priority) ++ofAge[a];
-    const int lit = exposed - ofAge[kNoRay];
-    int left = static_cast<int>(std::ceil(f.rayRefresh * static_cast<float>(lit))) - ofAge[kUnknown];
-    int threshold = kUnknown;
-    while (threshold > 1 && left >= ofAge[threshold - 1] && left > 0) left -= ofAge[--threshold];
-    // Down to `threshold` all; of the age below, the first `left`.
-    int refreshed = 0;
-    for (uint8_t& a : m.priority) {
-        if (a == kNoRay) continue;
-        bool chosen = a >= threshold;
-        if (!chosen && a == threshold - 1 && left > 0) chosen = true, --left;
-        a = chosen ? kUnknown : static_cast<uint8_t>(a);
-        refreshed += chosen;
+    const bool host = f.rays && f.rays->occluded;
+    if (!m.visibility && !(host && f.rays->melt)) m.visibility = std::make_unique<Visibility>(m.allocator);
+    if (m.visibility) {
+        m.visibility->clearStirs();
+        m.visibility->setColliders(f.colliders, host ? 0 : f.colliderCount, f.colliderVersion);
+        m.visibility->setSpheres(m.spheres.data(), m.sphereIds.data(), exposed, f.particles.count, m.moved.data());
     }
-    stats.raysReduced = refreshed < lit;
-
-    bool beyond = false;
-    for (int s = kRemembered; s < f.sourceCount; ++s) beyond |= shines(f.sources[s]);
-    if (refreshed > 0 || (beyond && lit > 0)) {
-        if (!m.visibility) m.visibility = std::make_unique<Visibility>(m.allocator);
-        m.visibility->setColliders(f.colliders, f.colliderCount, f.colliderVersion);
-        m.visibility->setSpheres(m.spheres.data(), m.sphereIds.data(), exposed, p.count);
+    f.tasks.forBlocks(exposed, kRayBlock, [&](int begin, int end, int, int) { m.weigh(f, begin, end); });
+    const int chosen = m.choose(f, stats);
+    const bool beyond =
+        std::any_of(m.emitters.begin(), m.emitters.end(), [](const Impl::Lit& s) { return s.index >= kRemembered; });
+    if (chosen == 0 && !beyond) return;
+    if (m.visibility) m.visibility->commit();
+    m.batches.resize(host ? 1 : static_cast<size_t>(f.tasks.workerCount()));
+    if (host) { // in its own thread
+        for (int begin = 0; begin < exposed; begin += kRayBlock)
+            stats.rays += m.look(f, begin, std::min(exposed, begin + kRayBlock), m.batches[0]);
+        return;
     }
-    f.tasks.forBlocks(exposed, kRayBlock, [&](int begin, int end, int block, int) {
-        float received[kRayBlock] = {};
-        uint32_t seen[kRayBlock] = {};
-        int rays = 0;
-        for (int s = 0; s < f.sourceCount; ++s) {
-            if (!shines(f.sources[s])) continue;
-            Ray packet[8];
-            float flux[8];
-            int owner[8], n = 0;
-            const auto flush = [&] {
-                bool blocked[8];
-                m.visibility->cast(packet, n, blocked);
-                for (int k = 0; k < n; ++k) {
-                    if (blocked[k]) continue;
-                    received[owner[k]] += flux[k];
-                    if (s < kRemembered) seen[owner[k]] |= 1u << s;
-                }
-                rays += n, n = 0;
-            };
-            for (int e = begin; e < end; ++e) {
-                const size_t at = static_cast<size_t>(e);
-                if (m.priority[at] == kNoRay) continue;
-                const size_t row = static_cast<size_t>(m.exposed[at]);
-                const bool fresh = m.priority[at] == kUnknown || s >= kRemembered;
-                if (!fresh && !(seenOf(p.rayMemory[row]) >> s & 1)) continue;
-                const View v = look(f.sources[s], p.position[row].xyz(), p.normal[row], spacingOf(row));
-                if (v.flux == 0) continue;
-                if (!fresh) {
-                    received[e - begin] += v.flux;
-                    continue;
-                }
-                packet[n] = v.ray, flux[n] = v.flux, owner[n] = e - begin;
-                if (++n == 8) flush();
-            }
-            if (n > 0) flush();
-        }
-        for (int e = begin; e < end; ++e) {
-            const size_t at = static_cast<size_t>(e), row = static_cast<size_t>(m.exposed[at]);
-            float& memory = p.rayMemory[row];
-            if (m.priority[at] == kNoRay)
-                memory = 0;
-            else if (m.priority[at] == kUnknown)
-                memory = remember(0, seen[e - begin]);
-            else {
-                const int age = ageOf(memory) + (p.still(m.exposed[at]) ? 1 : kMoverAge);
-                memory = remember(std::min(kOldest, age), seenOf(memory));
-            }
-            m.power[row] = received[e - begin] * f.materials[p.material[row]].def.absorptivity * p.normal[row].w;
-        }
-        m.blockRays[static_cast<size_t>(block)] = rays;
+    f.tasks.forBlocks(exposed, kRayBlock, [&](int begin, int end, int block, int worker) {
+        m.blockRays[static_cast<size_t>(block)] = m.look(f, begin, end, m.batches[static_cast<size_t>(worker)]);
     });
     for (int r : m.blockRays) stats.rays += r;
 }

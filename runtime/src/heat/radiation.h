@@ -9,14 +9,18 @@
 
 namespace thaw {
 
-// What the sources send to the surface: casts rays, the unknown and longest unseen first, and finds the power absorbed.
+// What the sources send to the surface. The irradiance is found anew in every step where something changed, in closed
+// form; which share of a source is in sight is remembered, and looked at again, by rays, where it may have changed
+// most.
 class Radiation {
 public:
-    explicit Radiation(Allocator& allocator); // Embree is started at the first run() that casts rays
+    explicit Radiation(Allocator& allocator); // Embree is started at the first run() with something lit
     ~Radiation();
 
     void run(const HeatFrame& f, HeatStats& stats);
     const float* power() const; // per row, W absorbed, of the last run()
+    // Mixes in what the next run() compares with.
+    uint64_t hash(uint64_t h) const;
 
 private:
     struct Impl;

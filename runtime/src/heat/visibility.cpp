@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "heat/visibility.h"
 
+#include "base/math.h"
+
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <new>
 #include <vector>
@@ -140,18 +143,42 @@ void sphereOccluded(const RTCOccludedFunctionNArguments* a) {
 constexpr int kRefitsPerBuild = 32;
 // Places kept for particles that come to the surface before the next build, as a share of the spheres.
 constexpr float kSpare = 0.15f;
+// Spheres whose movement is told as one region.
+constexpr size_t kStirBatch = 128;
 constexpr uint32_t kNoId = std::numeric_limits<uint32_t>::max();
 
 } // namespace
 
 struct Visibility::Impl {
-    explicit Impl(Allocator& a) : spheres(a), ids(a), taken(a), keys(a), slots(a), unplaced(a) {}
+    explicit Impl(Allocator& a) : spheres(a), ids(a), taken(a), keys(a), slots(a), unplaced(a), stirs(a), batches(a) {}
 
     RTCDevice device = nullptr;
     RTCScene solidScene = nullptr, meltScene = nullptr;
     RTCGeometry melt = nullptr;
     tbb::task_arena arena{1, 1};
 
+    // A collider as it is in the tree.
+    struct Occluder {
+        thawColliderType type;
+        const CleanMesh* mesh; // of which an instance is there; meshScenes keeps it alive
+        Vec3 size;
+        Transform place;
+        RTCGeometry instance; // of a mesh
+        int at;               // in solids, or in planes
+        int index;            // of the collider
+        bool same(const Collider& c) const {
+            return type == c.type && mesh == c.mesh.get() && std::memcmp(&size, &c.size, sizeof size) == 0 &&
+                   std::memcmp(&place, &c.transform, sizeof place) == 0;
+        }
+    };
+    std::vector<Occluder> occluders;
+    struct MeshScene {
+        std::shared_ptr<const CleanMesh> mesh;
+        RTCScene scene;
+    };
+    std::vector<MeshScene> meshScenes;
+    RTCGeometry solidGeometry = nullptr;
+    bool collidersDirty = false, meltDirty = false, meltAnew = false;
     std::vector<Solid> solids;
     struct Plane {
         Vec3 point, normal;
@@ -170,6 +197,37 @@ struct Visibility::Impl {
     Array<int> unplaced;  // indices of spheres without a place yet
     int refitsSinceBuild = 0;
     int live = 0;
+    Array<Stir> stirs;
+    Array<Stir> batches; // of the spheres, per kStirBatch of them
+
+    void stir(const Box& box, float amount) { stirs.push({box, amount}); }
+    static bool shades(const Collider& c) {
+        return c.alive && c.occluder && !(c.type == thawCollider_mesh && (!c.mesh || c.mesh->indices.empty()));
+    }
+    static Solid solidOf(const Collider& c) {
+        return {c.type == thawCollider_box, c.transform.position, c.size, c.transform.rotation, c.bounds()};
+    }
+    static Plane planeOf(const Collider& c) { return {c.transform.position, rotate(c.transform.rotation, {0, 1, 0})}; }
+    bool sameOccluders(const Collider* colliders, int count) const {
+        size_t at = 0;
+        for (int c = 0; c < count; ++c) {
+            if (!shades(colliders[c])) continue;
+            if (at == occluders.size()) return false;
+            const Occluder& o = occluders[at++];
+            const Collider& x = colliders[c];
+            if (o.type != x.type || o.mesh != x.mesh.get() || o.index != c) return false;
+            if (o.size.x != x.size.x || o.size.y != x.size.y || o.size.z != x.size.z) return false;
+        }
+        return at == occluders.size();
+    }
+    RTCScene sceneOf(const std::shared_ptr<const CleanMesh>& mesh);
+    static void setInstance(RTCGeometry g, const Transform& t) {
+        const Vec3 x = rotate(t.rotation, {1, 0, 0}), y = rotate(t.rotation, {0, 1, 0}),
+                   z = rotate(t.rotation, {0, 0, 1});
+        const float m[12] = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z, t.position.x, t.position.y, t.position.z};
+        rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, m);
+        rtcCommitGeometry(g);
+    }
 
     size_t mask() const { return keys.size() - 1; }
     static size_t placesFor(size_t n) { return n + static_cast<size_t>(kSpare * static_cast<float>(n)) + 8; }
@@ -229,48 +287,120 @@ Visibility::Visibility(Allocator& allocator) : impl_(std::make_unique<Impl>(allo
 Visibility::~Visibility() {
     if (!impl_ || !impl_->device) return;
     if (impl_->melt) rtcReleaseGeometry(impl_->melt);
+    for (const auto& s : impl_->meshScenes) rtcReleaseScene(s.scene);
     rtcReleaseScene(impl_->meltScene), rtcReleaseScene(impl_->solidScene);
     rtcReleaseDevice(impl_->device);
+}
+
+// The tree of one mesh, in its own space; kept for as long as some collider has it.
+RTCScene Visibility::Impl::sceneOf(const std::shared_ptr<const CleanMesh>& mesh) {
+    for (const MeshScene& s : meshScenes)
+        if (s.mesh == mesh) return s.scene;
+    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Copied: Embree reads 16 bytes at a vertex, past the end of the last one.
+    void* v =
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh->vertices.size());
+    void* i = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t),
+                                      mesh->indices.size() / 3);
+    if (!v || !i) {
+        rtcReleaseGeometry(g);
+        throw std::bad_alloc();
+    }
+    std::copy(mesh->vertices.begin(), mesh->vertices.end(), static_cast<Vec3*>(v));
+    std::copy(mesh->indices.begin(), mesh->indices.end(), static_cast<uint32_t*>(i));
+    rtcSetGeometryOccludedFilterFunction(g, frontFacesOnly);
+    rtcCommitGeometry(g);
+    RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcAttachGeometry(scene, g);
+    rtcReleaseGeometry(g);
+    commit(scene);
+    meshScenes.push_back({mesh, scene});
+    return scene;
 }
 
 void Visibility::setColliders(const Collider* colliders, int count, uint64_t version) {
     Impl& m = *impl_;
     if (m.collidersKnown && m.version == version) return;
-    m.collidersKnown = true, m.version = version;
+    m.version = version;
+    if (m.collidersKnown && m.sameOccluders(colliders, count)) {
+        bool solidsMoved = false;
+        size_t at = 0;
+        for (int c = 0; c < count; ++c) {
+            if (!Impl::shades(colliders[c])) continue;
+            Impl::Occluder& o = m.occluders[at++];
+            const Transform &was = o.place, &now = colliders[c].transform;
+            if (std::memcmp(&was, &now, sizeof now) == 0) continue;
+            Collider before = colliders[c];
+            before.transform = was;
+            before.moveTo(now, 1);
+            const Box box = before.bounds();
+            const Vec3 center = 0.5f * (box.lower + box.upper);
+            const bool plane = o.type == thawCollider_plane;
+            m.stir(before.sweptBounds(),
+                   plane ? INFINITY : before.reachOfMotion(center, 0.5f * length(box.upper - box.lower)));
+            o.place = now;
+            if (plane)
+                m.planes[static_cast<size_t>(o.at)] = Impl::planeOf(colliders[c]);
+            else if (o.type == thawCollider_mesh)
+                Impl::setInstance(o.instance, now);
+            else
+                m.solids[static_cast<size_t>(o.at)] = Impl::solidOf(colliders[c]), solidsMoved = true;
+            m.collidersDirty |= !plane;
+            ++colliderMoves_;
+        }
+        if (solidsMoved) rtcCommitGeometry(m.solidGeometry);
+        return;
+    }
+    // What is gone, or is something else now.
+    std::vector<char> stays(static_cast<size_t>(count));
+    for (const Impl::Occluder& o : m.occluders) {
+        if (o.index < count && Impl::shades(colliders[o.index]) && o.same(colliders[o.index])) {
+            stays[static_cast<size_t>(o.index)] = 1;
+            continue;
+        }
+        Collider was;
+        was.type = o.type, was.size = o.size, was.transform = o.place;
+        if (o.type == thawCollider_mesh) was.mesh = std::shared_ptr<const CleanMesh>(std::shared_ptr<void>(), o.mesh);
+        m.stir(was.bounds(), INFINITY);
+    }
+    m.collidersKnown = false;
     rtcReleaseScene(m.solidScene);
     m.solidScene = rtcNewScene(m.device);
     rtcSetSceneFlags(m.solidScene, RTC_SCENE_FLAG_ROBUST);
-    m.solids.clear(), m.planes.clear();
-    m.anySolid = false;
+    m.occluders.clear(), m.solids.clear(), m.planes.clear();
+    m.solidGeometry = nullptr, m.anySolid = false;
+    for (size_t k = 0; k < m.meshScenes.size();) {
+        const auto& mesh = m.meshScenes[k].mesh;
+        if (std::any_of(colliders, colliders + count,
+                        [&](const Collider& c) { return Impl::shades(c) && c.mesh == mesh; })) {
+            ++k;
+            continue;
+        }
+        rtcReleaseScene(m.meshScenes[k].scene);
+        m.meshScenes.erase(m.meshScenes.begin() + static_cast<std::ptrdiff_t>(k));
+    }
     for (int c = 0; c < count; ++c) {
         const Collider& o = colliders[c];
-        if (!o.alive || !o.occluder) continue;
+        if (!Impl::shades(o)) continue;
+        Impl::Occluder entry{o.type, o.mesh.get(), o.size, o.transform, nullptr, 0, c};
         if (o.type == thawCollider_plane) {
-            m.planes.push_back({o.transform.position, rotate(o.transform.rotation, {0, 1, 0})});
+            entry.at = static_cast<int>(m.planes.size());
+            m.planes.push_back(Impl::planeOf(o));
         } else if (o.type == thawCollider_mesh) {
-            if (!o.mesh || o.mesh->indices.empty()) continue;
-            RTCGeometry g = rtcNewGeometry(m.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-            // Copied: Embree reads 16 bytes at a vertex, past the end of the last one.
-            void* v = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3),
-                                              o.mesh->vertices.size());
-            void* i = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t),
-                                              o.mesh->indices.size() / 3);
-            if (!v || !i) {
-                rtcReleaseGeometry(g);
-                throw std::bad_alloc();
-            }
-            std::transform(o.mesh->vertices.begin(), o.mesh->vertices.end(), static_cast<Vec3*>(v),
-                           [&](Vec3 x) { return o.transform.position + rotate(o.transform.rotation, x); });
-            std::copy(o.mesh->indices.begin(), o.mesh->indices.end(), static_cast<uint32_t*>(i));
-            rtcSetGeometryOccludedFilterFunction(g, frontFacesOnly);
-            rtcCommitGeometry(g);
-            rtcAttachGeometry(m.solidScene, g);
-            rtcReleaseGeometry(g);
+            entry.instance = rtcNewGeometry(m.device, RTC_GEOMETRY_TYPE_INSTANCE);
+            rtcSetGeometryInstancedScene(entry.instance, m.sceneOf(o.mesh));
+            rtcSetGeometryTimeStepCount(entry.instance, 1);
+            Impl::setInstance(entry.instance, o.transform);
+            rtcAttachGeometry(m.solidScene, entry.instance);
+            rtcReleaseGeometry(entry.instance); // the scene keeps it
             m.anySolid = true;
         } else {
-            m.solids.push_back(
-                {o.type == thawCollider_box, o.transform.position, o.size, o.transform.rotation, o.bounds()});
+            entry.at = static_cast<int>(m.solids.size());
+            m.solids.push_back(Impl::solidOf(o));
         }
+        m.occluders.push_back(entry);
+        if (!stays[static_cast<size_t>(c)]) m.stir(o.bounds(), INFINITY);
     }
     if (!m.solids.empty()) {
         RTCGeometry g = rtcNewGeometry(m.device, RTC_GEOMETRY_TYPE_USER);
@@ -281,39 +411,75 @@ void Visibility::setColliders(const Collider* colliders, int count, uint64_t ver
         rtcCommitGeometry(g);
         rtcAttachGeometry(m.solidScene, g);
         rtcReleaseGeometry(g);
+        m.solidGeometry = g;
         m.anySolid = true;
     }
-    m.commit(m.solidScene);
+    m.collidersKnown = m.collidersDirty = true;
+    ++colliderBuilds_;
 }
 
-void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count, int most) {
+void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count, int most, float* moved) {
     Impl& m = *impl_;
     const bool hadNone = m.live == 0;
     m.live = count;
-    if (count == 0) return;
     const size_t n = static_cast<size_t>(count);
-    bool fits = !hadNone && m.spheres.size() >= n && 2 * n >= m.spheres.size();
+    const auto boxOf = [](const Vec4& s) { return Box{s.xyz() - Vec3{s.w, s.w, s.w}, s.xyz() + Vec3{s.w, s.w, s.w}}; };
+    // Spheres of a batch lie together: rows are in the order of cells.
+    m.batches.assign((n + kStirBatch - 1) / kStirBatch, Stir{{}, 0});
+    const auto stirs = [&](size_t i, const Vec4* was, float amount) {
+        Stir& batch = m.batches[i / kStirBatch];
+        const Box now = boxOf(spheres[i]);
+        batch.box.grow(now.lower), batch.box.grow(now.upper);
+        if (was) batch.box.grow(boxOf(*was).lower), batch.box.grow(boxOf(*was).upper);
+        batch.amount = std::max(batch.amount, amount);
+    };
+    const auto tell = [&] {
+        for (const Stir& batch : m.batches)
+            if (batch.amount > 0) m.stirs.push(batch);
+    };
+    // Who is no more among them: one region for all of them together.
+    Box gone;
+    if (count == 0) {
+        for (size_t s = 0; s < m.ids.size(); ++s)
+            if (m.ids[s] != kNoId) gone.grow(boxOf(m.spheres[s]).lower), gone.grow(boxOf(m.spheres[s]).upper);
+        if (!hadNone && !gone.empty()) m.stir(gone, INFINITY);
+        return;
+    }
+    m.makeTable();
+    const bool fits = !hadNone && m.spheres.size() >= n && 2 * n >= m.spheres.size();
     bool changed = false;
-    if (fits) {
-        m.makeTable();
-        m.taken.assign(m.ids.size(), uint8_t{0});
-        m.unplaced.clear();
-        const auto put = [&](size_t slot, size_t i) {
-            const Vec4 &was = m.spheres[slot], &now = spheres[i];
-            changed |= was.x != now.x || was.y != now.y || was.z != now.z || was.w != now.w;
-            m.spheres[slot] = now, m.ids[slot] = ids[i], m.taken[slot] = 1;
-        };
-        for (size_t i = 0; i < n; ++i) {
-            const int slot = m.find(ids[i]);
-            if (slot < 0)
-                m.unplaced.push(static_cast<int>(i));
-            else
-                put(static_cast<size_t>(slot), i);
+    m.taken.assign(m.ids.size(), uint8_t{0});
+    m.unplaced.clear();
+    const auto put = [&](size_t slot, size_t i) {
+        const Vec4 &was = m.spheres[slot], &now = spheres[i];
+        changed |= was.x != now.x || was.y != now.y || was.z != now.z || was.w != now.w;
+        m.spheres[slot] = now, m.ids[slot] = ids[i];
+    };
+    for (size_t i = 0; i < n; ++i) {
+        const int slot = hadNone ? -1 : m.find(ids[i]);
+        if (slot < 0) {
+            m.unplaced.push(static_cast<int>(i));
+            stirs(i, nullptr, INFINITY);
+            if (moved) moved[i] = INFINITY;
+            continue;
         }
+        const size_t s = static_cast<size_t>(slot);
+        const float way = length(spheres[i].xyz() - m.spheres[s].xyz());
+        if (way > 0) stirs(i, &m.spheres[s], way);
+        if (moved) moved[i] = way;
+        m.taken[s] = 1;
+        if (fits) put(s, i);
+    }
+    for (size_t s = 0; s < m.ids.size(); ++s)
+        if (!hadNone && !m.taken[s] && m.ids[s] != kNoId)
+            gone.grow(boxOf(m.spheres[s]).lower), gone.grow(boxOf(m.spheres[s]).upper);
+    if (!gone.empty()) m.stir(gone, INFINITY);
+    tell();
+    if (fits) {
         size_t slot = 0;
         for (int i : m.unplaced) {
             while (m.taken[slot]) ++slot;
-            put(slot, static_cast<size_t>(i));
+            put(slot, static_cast<size_t>(i)), m.taken[slot] = 1;
         }
         for (size_t s = 0; s < m.ids.size(); ++s) {
             if (m.taken[s]) continue;
@@ -321,12 +487,7 @@ void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count,
             changed |= was.x != now.x || was.y != now.y || was.z != now.z || was.w != now.w;
             m.ids[s] = kNoId, m.spheres[s] = now;
         }
-    }
-    if (fits && !changed) return;
-    if (fits && m.refitsSinceBuild < kRefitsPerBuild) {
-        rtcCommitGeometry(m.melt);
-        m.commit(m.meltScene);
-        ++m.refitsSinceBuild, ++refits_;
+        m.meltDirty |= changed;
         return;
     }
     // Embree reads the spheres where they are, so they may only move when it builds anew.
@@ -334,13 +495,52 @@ void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count,
     m.spheres.reserve(mostPlaces), m.ids.reserve(mostPlaces), m.taken.reserve(mostPlaces);
     m.keys.reserve(Impl::tableFor(mostPlaces)), m.slots.reserve(Impl::tableFor(mostPlaces));
     m.unplaced.reserve(mostPlaces);
+    m.batches.reserve(mostPlaces / kStirBatch + 1);
+    m.stirs.reserve(mostPlaces / kStirBatch + 2 * m.occluders.size() + 16);
     m.spheres.resizeRaw(places), m.ids.resizeRaw(places);
     for (size_t s = 0; s < places; ++s) {
         m.spheres[s] = spheres[s < n ? s : 0];
         m.ids[s] = s < n ? ids[s] : kNoId;
     }
+    m.meltDirty = m.meltAnew = true;
+}
+
+const Array<Stir>& Visibility::stirs() const { return impl_->stirs; }
+void Visibility::clearStirs() { impl_->stirs.clear(); }
+
+void Visibility::commit() {
+    Impl& m = *impl_;
+    if (m.collidersDirty) m.commit(m.solidScene), m.collidersDirty = false;
+    if (!m.meltDirty || m.live == 0) return;
+    m.meltDirty = false;
+    if (!m.meltAnew && m.refitsSinceBuild < kRefitsPerBuild) {
+        rtcCommitGeometry(m.melt);
+        m.commit(m.meltScene);
+        ++m.refitsSinceBuild, ++refits_;
+        return;
+    }
+    m.meltAnew = false;
     m.build();
     ++rebuilds_;
+}
+
+uint64_t Visibility::hash(uint64_t h) const {
+    const Impl& m = *impl_;
+    const auto mix = [&](float a, float b) {
+        uint32_t bits[2];
+        std::memcpy(bits, &a, 4), std::memcpy(bits + 1, &b, 4);
+        h = hashCombine(h, static_cast<uint64_t>(bits[0]) << 32 | bits[1]);
+    };
+    for (size_t s = 0; s < m.ids.size(); ++s) {
+        if (m.ids[s] == kNoId) continue;
+        h = hashCombine(h, m.ids[s]);
+        mix(m.spheres[s].x, m.spheres[s].y), mix(m.spheres[s].z, m.spheres[s].w);
+    }
+    for (const Impl::Occluder& o : m.occluders) {
+        mix(o.place.position.x, o.place.position.y), mix(o.place.position.z, o.place.rotation.x);
+        mix(o.place.rotation.y, o.place.rotation.z);
+    }
+    return h;
 }
 
 void Visibility::cast(const Ray* rays, int count, bool* blocked) const {

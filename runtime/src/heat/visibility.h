@@ -19,31 +19,48 @@ struct Ray {
     float skip;     // m, what the ray enters nearer than this is the neighbourhood and shades nothing
 };
 
+// A region in which something that shades moved, came or went.
+struct Stir {
+    Box box;      // of the old and the new place
+    float amount; // m, how far; infinite when it came or went
+};
+
 // Who sees whom: the host's colliders and the melting bodies themselves, in two Embree scenes. The melt is one sphere
-// per exposed particle, kept by refit; the colliders are rebuilt only when they change. Uses the calling thread only:
-// Embree's commits run in a private arena of one thread, so the host's own use of TBB is left alone.
+// per exposed particle, kept by refit; meshes of colliders are instances, so that one that moves only gets a new
+// transform. Uses the calling thread only: Embree's commits run in a private arena of one thread, so the host's own use
+// of TBB is left alone.
 class Visibility {
 public:
     explicit Visibility(Allocator& allocator); // throws std::bad_alloc when Embree cannot start
     ~Visibility();
 
-    // Takes over the occluders when `version` is not the one of last time.
+    // Takes over the occluders when `version` is not the one of last time. What changed is in stirs().
     void setColliders(const Collider* colliders, int count, uint64_t version);
     // One sphere per exposed particle. ids are distinct; spheres' w is the radius. The order may change from call to
     // call: an id keeps its place in the tree. `most` is how many there may be one day (0: no more than now): while it
-    // does not grow, only Embree allocates.
-    void setSpheres(const Vec4* spheres, const uint32_t* ids, int count, int most = 0);
+    // does not grow, only Embree allocates. moved: per sphere, m, infinite when it is new; may be null. What changed is
+    // in stirs().
+    void setSpheres(const Vec4* spheres, const uint32_t* ids, int count, int most = 0, float* moved = nullptr);
+    // What shades now and did not, or no more, since the calls before. Forgotten by clearStirs().
+    const Array<Stir>& stirs() const;
+    void clearStirs();
+    // Brings the trees up to what was set. To be called before cast().
+    void commit();
     // blocked[k] = the way of ray k is not free, for up to 8 rays. May be called from several threads at once.
     void cast(const Ray* rays, int count, bool* blocked) const;
 
-    // How often the tree of the melt was built anew, and refitted.
+    // How often the tree of the melt was built anew, and refitted; and that of the colliders, and moved within.
     int rebuilds() const { return rebuilds_; }
     int refits() const { return refits_; }
+    int colliderBuilds() const { return colliderBuilds_; }
+    int colliderMoves() const { return colliderMoves_; }
+    // Mixes in the places that the next call compares with.
+    uint64_t hash(uint64_t h) const;
 
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
-    int rebuilds_ = 0, refits_ = 0;
+    int rebuilds_ = 0, refits_ = 0, colliderBuilds_ = 0, colliderMoves_ = 0;
 };
 
 } // namespace thaw

@@ -29,10 +29,11 @@ enum ParticleFlag : uint8_t {
     X(float, liquidFraction) /* 0..1, from enthalpy */                                                                 \
     X(float, pressure)       /* Pa, warm start of the next step */                                                     \
     X(float, stiffness)      /* Jacobi coefficient of the last step, 0 when there was none */                          \
-    X(float, rayMemory)   /* memory of the last rays, see radiation.cpp: age, and one bit per source that was seen; 0  \
-                             unknown */                                                                                \
-    X(uint32_t, id)       /* stable, never reused */                                                                   \
-    X(uint32_t, bondSlot) /* where its bonds are (Bonds), 0 none */                                                    \
+    X(uint64_t, rayShares)   /* of the first 8 sources, a byte each: see radiation.cpp */                              \
+    X(float, rayChange)      /* W/m^2 that may have changed since the last look */                                     \
+    X(uint8_t, rayAge)       /* 1 + steps since the last look at the sources; 0 never */                               \
+    X(uint32_t, id)          /* stable, never reused */                                                                \
+    X(uint32_t, bondSlot)    /* where its bonds are (Bonds), 0 none */                                                 \
     X(uint16_t, body)                                                                                                  \
     X(uint16_t, piece)  /* rigid piece that a fixed row is part of, its slot + 1; 0: held, or a mover */               \
     X(uint16_t, anchor) /* fixed: 1 + the collider that it hangs on, of those that are told apart; else 0 */           \

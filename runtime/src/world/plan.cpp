@@ -44,17 +44,22 @@ thawPlan makePlan(const Needs& n, const thawWork& work) {
     return plan;
 }
 
+int mostRays(const Needs& n, const thawWork& work) {
+    const float each = static_cast<float>(n.sources + n.areaSources * work.raysPerSource);
+    return static_cast<int>(static_cast<float>(n.exposed) * work.rayRefresh * each);
+}
+
 namespace {
 
 // Least visible first: rays, heat interval, sub-steps, iterations.
 struct Quality {
     float rays;
-    int heatInterval, subSteps, pressure, viscosity, heatCycles;
+    int heatInterval, subSteps, pressure, viscosity, heatCycles, raysPerSource;
 };
 constexpr Quality kQualities[] = {
-    {1.0f, 1, 16, 64, 200, 1000}, {0.5f, 1, 16, 64, 200, 1000}, {0.25f, 1, 16, 64, 200, 80},
-    {0.25f, 2, 4, 8, 40, 40},     {0.25f, 2, 2, 4, 20, 20},     {0.125f, 2, 2, 4, 12, 20},
-    {0.125f, 4, 1, 4, 12, 10},    {0.1f, 4, 1, 4, 8, 10},       {0.05f, 8, 1, 3, 6, 8},
+    {1.0f, 1, 16, 64, 200, 1000, 64}, {0.5f, 1, 16, 64, 200, 1000, 16}, {0.25f, 1, 16, 64, 200, 80, 9},
+    {0.25f, 2, 4, 8, 40, 40, 9},      {0.25f, 2, 2, 4, 20, 20, 4},      {0.125f, 2, 2, 4, 12, 20, 4},
+    {0.125f, 4, 1, 4, 12, 10, 4},     {0.1f, 4, 1, 4, 8, 10, 4},        {0.05f, 8, 1, 3, 6, 8, 4},
 };
 // Not below: at 2 pressure and 4 viscosity iterations the candle throws drops (19 in 20 s faster than 0.4 m/s
 // sideways), at 3 and 6 none. A budget that asks for less is exceeded, and the step says so.
@@ -72,7 +77,8 @@ thawWork clip(const Quality& q, const thawWork& limit) {
             std::max(q.heatInterval, limit.heatInterval),
             std::min(q.rays, limit.rayRefresh),
             limit.leastSubSteps,
-            std::min(q.heatCycles, limit.heatCycles)};
+            std::min(q.heatCycles, limit.heatCycles),
+            std::min(q.raysPerSource, limit.raysPerSource)};
 }
 
 } // namespace
@@ -87,7 +93,8 @@ float Governor::predict(const Needs& n, const thawWork& w, int subStepsWanted) c
         // Implicitly, it takes no more iterations than that.
         const int passes = heatWanted_ <= w.heatCycles ? heatWanted_ : std::min(30, w.heatCycles);
         ms += particles * perHeat_ * static_cast<float>(passes);
-        if (n.sourceOn) ms += static_cast<float>(n.exposed) * (kRayShare + w.rayRefresh) * perRay_;
+        if (n.sourceOn)
+            ms += (static_cast<float>(n.exposed) * kRayShare + rayUse_ * static_cast<float>(mostRays(n, w))) * perRay_;
     }
     if (n.movers > 0) {
         const float its = std::min(static_cast<float>(w.viscosityIterations), viscosityPerSubStep_ * 1.25f + 1);
@@ -135,6 +142,10 @@ void Governor::learn(const Cost& c) {
         blend(perExposure_, s[thawStage_exposure] + s[thawStage_phase] + s[thawStage_stats], n);
     }
     if (c.rays > 0) blend(perRay_, s[thawStage_radiation], c.rays + kRayShare * static_cast<double>(c.exposed));
+    if (c.mostRays > 0) {
+        const float use = std::min(1.0f, static_cast<float>(c.rays) / static_cast<float>(c.mostRays));
+        rayUse_ += (use > rayUse_ ? 0.5f : 0.05f) * (use - rayUse_);
+    }
     if (c.heatRan) {
         blend(perHeat_, s[thawStage_conduction] + s[thawStage_loss], n * std::max(1, c.heatPasses));
         heatWanted_ = std::max(1, c.heatWanted);

@@ -11,11 +11,12 @@ namespace thaw {
 // What the scene is like before a step: all that the plan depends on besides the work units.
 struct Needs {
     int particles = 0, movers = 0, exposed = 0;
-    int rigid = 0;              // particles of pieces that are awake
-    bool listsStale = true;     // something moved, changed hold, came or went since the lists were built
-    bool holdStale = false;     // pieces may have lost what held them
-    bool collidersMove = false; // in this step
-    bool sourceOn = false;      // an enabled source with power
+    int rigid = 0;                    // particles of pieces that are awake
+    bool listsStale = true;           // something moved, changed hold, came or went since the lists were built
+    bool holdStale = false;           // pieces may have lost what held them
+    bool collidersMove = false;       // in this step
+    bool sourceOn = false;            // an enabled source that differs from ambient
+    int sources = 0, areaSources = 0; // those: without and with an extent
     bool timeScaleZero = false;
     bool unequal = true;         // temperatures differ within the melt
     bool awayFromAmbient = true; // something is warmer or colder than ambient
@@ -24,6 +25,9 @@ struct Needs {
 
 // Stages on and off, with the reason: model only what the scene requires.
 thawPlan makePlan(const Needs& needs, const thawWork& work);
+
+// Rays that radiation casts at the most.
+int mostRays(const Needs& needs, const thawWork& work);
 
 // Chooses work units for a budget in milliseconds: predicts the cost of a step from what the last ones cost per unit,
 // takes the best quality whose prediction fits, drops at once and climbs slowly. Wall-clock enters here only, and what
@@ -35,7 +39,8 @@ public:
                     float& predictedMs);
     struct Cost {
         float stageMs[thawStage_count];
-        int particles, movers, exposed, rays, subSteps, pressureIterations, viscosityIterations; // iterations summed
+        int particles, movers, exposed, rays, mostRays, subSteps, pressureIterations,
+            viscosityIterations;    // iterations summed
         int heatWanted, heatPasses; // explicit sub-cycles of conduction that the step needed; passes that it did
         bool heatRan;
     };
@@ -47,6 +52,7 @@ private:
     float perParticle_ = 8e-5f;     // lists and sort, per particle and sub-step
     float perExposure_ = 2e-5f;     // exposure, hold and stats, per particle
     float perRay_ = 4e-4f;          // per ray; a quarter of it per exposed particle
+    float rayUse_ = 1;              // of the rays that could be, those that were: what rests is not looked at again
     float perHeat_ = 2e-5f;         // conduction, loss, integration, per particle and pass
     float perMover_ = 8e-5f;        // forces, collision, per mover and sub-step
     float perViscosity_ = 2.5e-5f;  // per mover and iteration

@@ -3,6 +3,7 @@
 #include "world/world.h"
 
 #include "base/kernel.h"
+#include "heat/sources.h"
 #include "motion/carry.h"
 #include "neighbors/exposure.h"
 #include "world/parts.h"
@@ -196,6 +197,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     Governor::Cost cost{};
     std::copy(std::begin(profile.stage), std::end(profile.stage), std::begin(cost.stageMs));
     cost.particles = particles.count, cost.movers = now.movers, cost.exposed = exposed_, cost.rays = heatStats.rays;
+    cost.mostRays = on(thawStage_radiation) ? mostRays(now, work) : 0;
     cost.subSteps = subSteps, cost.pressureIterations = counters_.pressureIterations;
     cost.viscosityIterations = counters_.viscosityIterations, cost.heatRan = heated;
     cost.heatWanted = heatStats.cyclesWanted, cost.heatPasses = heatStats.passes;
@@ -214,7 +216,11 @@ Needs World::needs() const {
     n.listsStale = listsStale_;
     n.holdStale = holdStale_;
     for (const Collider& c : colliders) n.collidersMove |= c.alive && c.hasTarget;
-    for (const HeatSource& s : sources) n.sourceOn |= s.alive && s.enabled && s.power != 0;
+    for (const HeatSource& s : sources) {
+        const float strength = strengthOf(s, def.ambientTemperature);
+        n.sourceOn |= strength != 0, n.sources += strength != 0 && !hasExtent(s.type);
+        n.areaSources += strength != 0 && hasExtent(s.type);
+    }
     n.timeScaleZero = def.thermalTimeScale == 0;
     n.unequal = maxTemperature_ - minTemperature_ > kEqualTemperature;
     for (const Collider& c : colliders)
@@ -313,6 +319,7 @@ thawPlan World::previewPlan(const thawBudget& budget) const {
 }
 
 void World::refreshNeighbors() {
+    ++surfaceVersion_;
     neighbors_.sort(particles, tasks);
     neighbors_.build(particles, tasks);
     fillMassArrays();
@@ -321,6 +328,7 @@ void World::refreshNeighbors() {
 }
 
 void World::refreshExposure() {
+    ++surfaceVersion_;
     exposed_ = findExposure(particles, neighbors_, volume_.data(), colliders.data(), static_cast<int>(colliders.size()),
                             tasks);
 }
@@ -450,7 +458,10 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
             def.convection,
             def.particleSpacing,
             work.rayRefresh,
-            work.heatCycles};
+            work.heatCycles,
+            work.raysPerSource,
+            surfaceVersion_,
+            &def.rays};
 }
 
 HoldFrame World::holdFrame(float dt, bool relabel) {
@@ -769,7 +780,22 @@ uint64_t World::stateHash() const {
     bytes(&def.thermalTimeScale, sizeof(float));
     for (const HeatSource& s : sources) {
         if (!s.alive || !s.enabled) continue;
-        const float v[5] = {s.position.x, s.position.y, s.position.z, s.power, s.radius};
+        const float v[16] = {s.position.x,
+                             s.position.y,
+                             s.position.z,
+                             s.power,
+                             s.radius,
+                             s.rotation.x,
+                             s.rotation.y,
+                             s.rotation.z,
+                             s.rotation.w,
+                             s.size.x,
+                             s.size.z,
+                             s.temperature,
+                             s.emissivity,
+                             s.irradiance,
+                             static_cast<float>(s.type),
+                             static_cast<float>(&s - sources.data())};
         bytes(v, sizeof v);
     }
     bytes(&stepsSinceRelabel_, sizeof stepsSinceRelabel_);
@@ -786,7 +812,7 @@ uint64_t World::stateHash() const {
             bytes(v, sizeof v);
         }
     }
-    return rigid_.hash(bonds_.hash(h));
+    return heat_.hash(rigid_.hash(bonds_.hash(h)));
 }
 
 thawLedger World::ledger() const {

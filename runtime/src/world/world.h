@@ -125,6 +125,7 @@ private:
     bool bodiesNew_ = false;    // nobody has looked yet what of them is held
     uint32_t stepsSinceRelabel_ = 0;
     uint64_t colliderVersion_ = 1;
+    uint64_t surfaceVersion_ = 1; // of the rows, their places and what of them is surface
     uint32_t nextId_ = 1;
     uint64_t steps_ = 0;
     double time_ = 0;
