@@ -26,7 +26,7 @@ std::vector<Suite> suites() {
              "liquids, solids and colliders at one step per frame",
              {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases(), softCases(), rigidCases(),
               pieceCases()}},
-            {"heat", "conduction, loss and phase change", {conductionCases(), stefanCases()}}};
+            {"heat", "conduction, contact, phase change and radiation", {conductionCases(), radiationCases(), stefanCases()}}};
 }
 
 struct Options {

@@ -49,6 +49,7 @@ CaseList softCases();
 CaseList rigidCases();
 CaseList pieceCases();
 CaseList conductionCases();
+CaseList radiationCases();
 CaseList stefanCases();
 
 } // namespace thaw::player
