@@ -177,6 +177,15 @@ TEST_CASE("heat: a pan melts butter, switches off, and the ledger books it") {
     CHECK(f.ledger().contact < before);
     CHECK(f.ledger().energyError < 1e-9);
 
+    // Taken from under it: what it no longer touches it no longer cools.
+    REQUIRE(thawCollider_Teleport(f.world, pan, {0, -0.5f, 0}, {0, 0, 0, 1}) == thawResult_ok);
+    const double left = f.ledger().contact;
+    f.step();
+    CHECK(f.ledger().contact == left);
+    REQUIRE(thawCollider_Teleport(f.world, pan, {0, -0.01f, 0}, {0, 0, 0, 1}) == thawResult_ok);
+    f.step();
+    CHECK(f.ledger().contact < left);
+
     CHECK(thawCollider_SetHeat(f.world, pan, -1, 1) == thawResult_invalidArgument);
     CHECK(std::string(thawWorld_GetLastError(f.world)).find("temperature") != std::string::npos);
     CHECK(thawCollider_SetHeat(f.world, pan, 300, NAN) == thawResult_invalidArgument);

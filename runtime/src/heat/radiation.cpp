@@ -29,8 +29,11 @@ uint64_t withShare(uint64_t shares, int source, uint32_t share) {
     return (shares & ~(uint64_t{255} << (8 * source))) | static_cast<uint64_t>(share) << (8 * source);
 }
 // A look is due when the share of the irradiance that may have changed, times the steps since the last look, passes
-// this: at once when something moved by a fiftieth of a spacing, and of a change by a five-thousandth at last.
+// this; of a change by a five-thousandth at last.
 constexpr float kEnough = 0.02f;
+// Way by a spacing, of the particle or of what shades, changes at most this share of what is seen, as a rule: few are
+// at the edge of a shadow. What moves by a twelfth of a spacing in a step looks in every one.
+constexpr float kByWay = 0.25f;
 constexpr uint8_t kOldest = 100;
 // An obstacle this many spacings off moves its shadow by one when the source moves by 1 / kLever of its distance.
 constexpr float kLever = 40;
@@ -62,8 +65,16 @@ Ray rayTo(const Receiver& r, Vec3 center, Vec3 point, float spacing) {
     return ray;
 }
 
-// Does the way from a to b pass the box, grown by `extent` on all sides?
+// Does the way from a to b, which widens to `extent` on all sides of it at b, pass the box? Yes when in doubt.
 bool passes(const Box& box, Vec3 a, Vec3 b, float extent) {
+    if (extent > 0) {
+        // As wide as it is where the box ends.
+        const Vec3 half = 0.5f * (box.upper - box.lower), way = b - a;
+        const float l2 = dot(way, way),
+                    last = dot(box.lower + half - a, way) +
+                           (std::abs(half.x * way.x) + std::abs(half.y * way.y) + std::abs(half.z * way.z));
+        if (last < l2) extent *= std::max(0.0f, last / l2);
+    }
     float enter = 0, leave = 1;
     const float from[3] = {a.x, a.y, a.z}, to[3] = {b.x, b.y, b.z};
     const float low[3] = {box.lower.x, box.lower.y, box.lower.z}, high[3] = {box.upper.x, box.upper.y, box.upper.z};
@@ -213,7 +224,7 @@ void Radiation::Impl::weigh(const HeatFrame& f, int begin, int end) {
     for (int e = begin; e < end; ++e) {
         const size_t at = static_cast<size_t>(e), row = static_cast<size_t>(exposed[at]);
         const Receiver r = receiver(f, row);
-        const float spacing = spacingOf(f, row), own = std::min(1.0f, moved[at] / spacing);
+        const float spacing = spacingOf(f, row), own = std::min(1.0f, kByWay * moved[at] / spacing);
         const bool unknown = p.rayAge[row] == 0;
         uint64_t shares = unknown ? ~uint64_t{0} : p.rayShares[row];
         float all = 0, received = 0, change = unknown ? 0.0f : p.rayChange[row], unseen = 0;
@@ -237,11 +248,14 @@ void Radiation::Impl::weigh(const HeatFrame& f, int begin, int end) {
                 const float far = s.type == thawHeatSource_directional ? 1.0f : length(there - r.position);
                 doubt += std::min(1.0f, kLever * s.shift / std::max(far, 1e-6f));
             }
+            // Where its rays against the melt begin to see.
+            const Ray ray = rayTo(r, p.position[row].xyz(), there, spacing);
+            const Vec3 away = ray.raised + std::min(ray.skip, ray.distance) * ray.direction;
             if (visibility)
                 for (const Stir& stir : visibility->stirs()) {
-                    const float most = std::min(1.0f, stir.amount / spacing);
+                    const float most = std::min(1.0f, kByWay * stir.amount / spacing);
                     if (doubt >= 1) break;
-                    if (passes(stir.box, r.position, there, s.extent)) doubt += most;
+                    if (passes(stir.box, stir.melt ? away : r.position, there, s.extent)) doubt += most;
                 }
             change += std::min(1.0f, doubt) * size;
         }

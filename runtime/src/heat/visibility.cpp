@@ -145,6 +145,8 @@ constexpr int kRefitsPerBuild = 32;
 constexpr float kSpare = 0.15f;
 // Spheres whose movement is told as one region.
 constexpr size_t kStirBatch = 128;
+// Those that came or went are told one by one up to so many.
+constexpr size_t kStirsApart = 48;
 constexpr uint32_t kNoId = std::numeric_limits<uint32_t>::max();
 
 } // namespace
@@ -200,7 +202,7 @@ struct Visibility::Impl {
     Array<Stir> stirs;
     Array<Stir> batches; // of the spheres, per kStirBatch of them
 
-    void stir(const Box& box, float amount) { stirs.push({box, amount}); }
+    void stir(const Box& box, float amount) { stirs.push({box, amount, false}); }
     static bool shades(const Collider& c) {
         return c.alive && c.occluder && !(c.type == thawCollider_mesh && (!c.mesh || c.mesh->indices.empty()));
     }
@@ -425,24 +427,29 @@ void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count,
     const size_t n = static_cast<size_t>(count);
     const auto boxOf = [](const Vec4& s) { return Box{s.xyz() - Vec3{s.w, s.w, s.w}, s.xyz() + Vec3{s.w, s.w, s.w}}; };
     // Spheres of a batch lie together: rows are in the order of cells.
-    m.batches.assign((n + kStirBatch - 1) / kStirBatch, Stir{{}, 0});
-    const auto stirs = [&](size_t i, const Vec4* was, float amount) {
+    m.batches.assign((n + kStirBatch - 1) / kStirBatch, Stir{{}, 0, true});
+    const auto stirs = [&](size_t i, const Vec4& was, float amount) {
         Stir& batch = m.batches[i / kStirBatch];
         const Box now = boxOf(spheres[i]);
         batch.box.grow(now.lower), batch.box.grow(now.upper);
-        if (was) batch.box.grow(boxOf(*was).lower), batch.box.grow(boxOf(*was).upper);
+        batch.box.grow(boxOf(was).lower), batch.box.grow(boxOf(was).upper);
         batch.amount = std::max(batch.amount, amount);
     };
     const auto tell = [&] {
         for (const Stir& batch : m.batches)
             if (batch.amount > 0) m.stirs.push(batch);
     };
-    // Who is no more among them: one region for all of them together.
-    Box gone;
+    // Who is no more among them, each by itself as long as they are few.
+    const size_t limit = m.stirs.size() + kStirsApart;
+    const auto gone = [&](const Vec4& s) {
+        const Box box = boxOf(s);
+        if (m.stirs.size() < limit) return m.stirs.push({box, s.w, true});
+        Stir& last = m.stirs[m.stirs.size() - 1];
+        last.box.grow(box.lower), last.box.grow(box.upper), last.amount = std::max(last.amount, s.w);
+    };
     if (count == 0) {
-        for (size_t s = 0; s < m.ids.size(); ++s)
-            if (m.ids[s] != kNoId) gone.grow(boxOf(m.spheres[s]).lower), gone.grow(boxOf(m.spheres[s]).upper);
-        if (!hadNone && !gone.empty()) m.stir(gone, INFINITY);
+        for (size_t s = 0; s < m.ids.size() && !hadNone; ++s)
+            if (m.ids[s] != kNoId) gone(m.spheres[s]);
         return;
     }
     m.makeTable();
@@ -459,21 +466,19 @@ void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count,
         const int slot = hadNone ? -1 : m.find(ids[i]);
         if (slot < 0) {
             m.unplaced.push(static_cast<int>(i));
-            stirs(i, nullptr, INFINITY);
-            if (moved) moved[i] = INFINITY;
+            gone(spheres[i]); // came, which is the same to those behind it
+            if (moved) moved[i] = spheres[i].w;
             continue;
         }
         const size_t s = static_cast<size_t>(slot);
         const float way = length(spheres[i].xyz() - m.spheres[s].xyz());
-        if (way > 0) stirs(i, &m.spheres[s], way);
+        if (way > 0) stirs(i, m.spheres[s], way);
         if (moved) moved[i] = way;
         m.taken[s] = 1;
         if (fits) put(s, i);
     }
     for (size_t s = 0; s < m.ids.size(); ++s)
-        if (!hadNone && !m.taken[s] && m.ids[s] != kNoId)
-            gone.grow(boxOf(m.spheres[s]).lower), gone.grow(boxOf(m.spheres[s]).upper);
-    if (!gone.empty()) m.stir(gone, INFINITY);
+        if (!hadNone && !m.taken[s] && m.ids[s] != kNoId) gone(m.spheres[s]);
     tell();
     if (fits) {
         size_t slot = 0;
@@ -496,7 +501,7 @@ void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count,
     m.keys.reserve(Impl::tableFor(mostPlaces)), m.slots.reserve(Impl::tableFor(mostPlaces));
     m.unplaced.reserve(mostPlaces);
     m.batches.reserve(mostPlaces / kStirBatch + 1);
-    m.stirs.reserve(mostPlaces / kStirBatch + 2 * m.occluders.size() + 16);
+    m.stirs.reserve(mostPlaces / kStirBatch + kStirsApart + 2 * m.occluders.size() + 16);
     m.spheres.resizeRaw(places), m.ids.resizeRaw(places);
     for (size_t s = 0; s < places; ++s) {
         m.spheres[s] = spheres[s < n ? s : 0];
