@@ -20,6 +20,12 @@ constexpr int kRowBlock = 512;
 constexpr double kStefanBoltzmann = 5.670374419e-8; // W/(m^2 K^4), CODATA 2018
 constexpr double kHottest = 1e5;                    // K, nothing gets hotter; the range of every temperature in the API
 
+// A part of a step takes a flat surface's own heat over ambient to 1 / (1 + kPart) of it at the most: conduction brings
+// more from below only in the next part. In one part a ball of 8 spacings that glows for an hour in steps of 83 s cools
+// 2.6 to 3.9 % too little, so 0.1 to 0.4 %.
+constexpr double kPart = 0.01;
+constexpr int kMostParts = 16;
+
 struct Booking {
     double absorbed = 0, emitted = 0, convected = 0;
 };
@@ -83,11 +89,11 @@ struct Heat::Impl {
     Conduction conduction;
     Array<Booking> booking; // per block
 
-    bool begun = false, absorbing = false;
+    bool begun = false, absorbing = false, settled = false; // settled: loss() has absorbed
 
     void begin(HeatStats& stats) {
         if (begun) return;
-        begun = true, absorbing = false, stats = {};
+        begun = true, absorbing = settled = false, stats = {};
     }
     void book(HeatStats& stats, int blocks) const {
         for (int b = 0; b < blocks; ++b) {
@@ -96,6 +102,18 @@ struct Heat::Impl {
         }
     }
 };
+
+int Heat::parts(const HeatFrame& f, int materialCount, float hottest) {
+    const double T = std::max(hottest, f.ambient), cube = T * T * T;
+    double fastest = 0;
+    for (int k = 0; k < materialCount; ++k) {
+        const thawMaterialDef& d = f.materials[k].def;
+        const double transfer = 4 * d.emissivity * kStefanBoltzmann * cube + static_cast<double>(f.convection);
+        const double heat = static_cast<double>(d.density) * std::min(d.specificHeatSolid, d.specificHeatLiquid);
+        fastest = std::max(fastest, transfer / (heat * f.spacing));
+    }
+    return static_cast<int>(std::clamp(std::ceil(f.dt * fastest / kPart), 1.0, static_cast<double>(kMostParts)));
+}
 
 Heat::Heat(Allocator& allocator) : impl_(std::make_unique<Impl>(allocator)) {}
 Heat::~Heat() = default;
@@ -112,8 +130,8 @@ void Heat::radiation(const HeatFrame& f) {
 void Heat::conduction(const HeatFrame& f) {
     Impl& m = *impl_;
     m.begin(stats_);
-    stats_.contact = m.conduction.run(f, m.contact.find(f));
-    stats_.cyclesWanted = m.conduction.cyclesWanted(), stats_.passes = m.conduction.passes();
+    stats_.contact += m.conduction.run(f, m.contact.find(f));
+    stats_.cyclesWanted += m.conduction.cyclesWanted(), stats_.passes += m.conduction.passes();
 }
 
 void Heat::loss(const HeatFrame& f) {
@@ -141,7 +159,7 @@ void Heat::loss(const HeatFrame& f) {
         }
         m.booking[static_cast<size_t>(block)] = sum;
     });
-    m.absorbing = false;
+    m.settled = true;
     m.book(stats_, blocks);
 }
 
@@ -159,7 +177,7 @@ void Heat::integrate(const HeatFrame& f) {
             const Material& material = f.materials[p.material[k]];
             const double mass = p.velocity[k].w, before = p.enthalpy[k];
             double H = before;
-            if (m.absorbing && mass > 0) H += power[k] * f.dt / mass;
+            if (m.absorbing && !m.settled && mass > 0) H += power[k] * f.dt / mass;
             // Beyond the bounds a source neither cools nor heats: what it did not move is not booked.
             H = std::clamp(H, material.enthalpyFloor(), material.enthalpy(static_cast<float>(kHottest)));
             sum.absorbed += mass * (H - before);
@@ -170,7 +188,7 @@ void Heat::integrate(const HeatFrame& f) {
         m.booking[static_cast<size_t>(block)] = sum;
     });
     m.book(stats_, blocks);
-    m.begun = m.absorbing = false;
+    m.begun = false;
 }
 
 } // namespace thaw

@@ -17,6 +17,8 @@ public:
     explicit Heat(Allocator& allocator); // throws std::bad_alloc; Embree is started at the first radiation
     ~Heat();
 
+    // In how many equal parts conduction and loss are to alternate over f.dt. hottest: K, of all there is.
+    static int parts(const HeatFrame& f, int materialCount, float hottest);
     void radiation(const HeatFrame& f); // casts rays, the unknown and longest unseen first; finds the power absorbed
     void conduction(
         const HeatFrame& f); // between particles, and from walls by contact; sub-cycles, then implicit when dt is long

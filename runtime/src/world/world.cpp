@@ -94,18 +94,23 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     const bool heated = on(thawStage_radiation) || on(thawStage_conduction) || on(thawStage_loss);
     HeatStats heatStats{};
     if (heated) {
-        const HeatFrame frame = heatFrame(heatTimePending_, work);
+        HeatFrame frame = heatFrame(heatTimePending_, work);
         if (on(thawStage_radiation)) {
             auto t = timed(thawStage_radiation);
             heat_.radiation(frame);
         }
-        if (on(thawStage_conduction)) {
-            auto t = timed(thawStage_conduction);
-            heat_.conduction(frame);
-        }
-        if (on(thawStage_loss)) {
-            auto t = timed(thawStage_loss);
-            heat_.loss(frame);
+        const int parts =
+            on(thawStage_loss) ? Heat::parts(frame, static_cast<int>(materials.size()), maxTemperature_) : 1;
+        frame.dt /= parts, frame.cycles = std::max(1, frame.cycles / parts);
+        for (int part = 0; part < parts; ++part) {
+            if (on(thawStage_conduction)) {
+                auto t = timed(thawStage_conduction);
+                heat_.conduction(frame);
+            }
+            if (on(thawStage_loss)) {
+                auto t = timed(thawStage_loss);
+                heat_.loss(frame);
+            }
         }
         auto t = timed(thawStage_phase);
         heat_.integrate(frame);

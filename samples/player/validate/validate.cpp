@@ -26,7 +26,9 @@ std::vector<Suite> suites() {
              "liquids, solids and colliders at one step per frame",
              {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases(), softCases(), rigidCases(),
               pieceCases()}},
-            {"heat", "conduction, contact, phase change and radiation", {conductionCases(), radiationCases(), stefanCases()}}};
+            {"heat",
+             "conduction, contact, phase change, radiation and loss",
+             {conductionCases(), stefanCases(), radiationCases(), surfaceCases()}}};
 }
 
 struct Options {

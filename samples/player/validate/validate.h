@@ -51,5 +51,6 @@ CaseList pieceCases();
 CaseList conductionCases();
 CaseList radiationCases();
 CaseList stefanCases();
+CaseList surfaceCases();
 
 } // namespace thaw::player

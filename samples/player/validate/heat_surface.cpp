@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+//
+// What surfaces lose and take up, and what that melts.
+#include "validate/heat_lab.h"
+#include "validate/validate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thaw::player {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846, kStefanBoltzmann = 5.670374419e-8;
+
+double areaOf(const scene::TriMesh& m) {
+    double sum = 0;
+    for (size_t t = 0; t + 2 < m.indices.size(); t += 3) {
+        double e[2][3];
+        for (size_t k = 0; k < 3; ++k)
+            for (size_t s = 0; s < 2; ++s)
+                e[s][k] = static_cast<double>(m.vertices[3 * m.indices[t + 1 + s] + k]) -
+                          static_cast<double>(m.vertices[3 * m.indices[t] + k]);
+        double square = 0;
+        for (size_t k = 0; k < 3; ++k) {
+            const size_t a = (k + 1) % 3, b = (k + 2) % 3;
+            const double c = e[0][a] * e[1][b] - e[0][b] * e[1][a];
+            square += c * c;
+        }
+        sum += 0.5 * std::sqrt(square);
+    }
+    return sum;
+}
+
+double exposedArea(const Lab& lab) {
+    const thawParticleView p = lab.particles();
+    double sum = 0;
+    for (int i = 0; i < p.count; ++i) sum += static_cast<double>(p.normals[4 * i + 3]);
+    return sum;
+}
+double massOf(const Lab& lab) {
+    const thawParticleView p = lab.particles();
+    double sum = 0;
+    for (int i = 0; i < p.count; ++i) sum += static_cast<double>(p.velocities[4 * i + 3]);
+    return sum;
+}
+double meanTemperature(const Lab& lab) {
+    const thawParticleView p = lab.particles();
+    double sum = 0;
+    for (int i = 0; i < p.count; ++i) sum += static_cast<double>(p.temperatures[i]);
+    return sum / p.count;
+}
+thawLedger ledgerOf(const Lab& lab) {
+    thawLedger l;
+    thawWorld_GetLedger(lab.world(), &l);
+    return l;
+}
+
+void area(Findings& found) {
+    const auto row = [&](const std::string& what, const scene::TriMesh& mesh, float spacing) {
+        Lab lab(spacing, 40000, {0, 0, 0}, 1);
+        thawWorld_SetAmbient(lab.world(), 0, 0);
+        thawMaterialDef m = stays(1000, 1000, 1);
+        m.emissivity = 1;
+        constexpr float kTemperature = 500;
+        lab.body(lab.material(m), mesh, {0, 0, 0}, kTemperature);
+        lab.step(1);
+        const double radiated = ledgerOf(lab).emitted * 60;
+        found.within(what + ": radiated / (sigma T^4), m^2", areaOf(mesh),
+                     radiated / (kStefanBoltzmann * std::pow(static_cast<double>(kTemperature), 4)), 0.05);
+    };
+    for (const float radius : {5.0f, 8.0f, 12.0f})
+        row("sphere, radius " + std::to_string(static_cast<int>(radius)) + " spacings",
+            scene::makeSphere(radius * 0.002f), 0.002f);
+    for (const float edge : {8.0f, 14.0f, 20.0f})
+        row("cube, edge " + std::to_string(static_cast<int>(edge)) + " spacings",
+            scene::makeBox({edge * 0.002f, edge * 0.002f, edge * 0.002f}), 0.002f);
+    for (const float spacing : {0.002f, 0.0015f})
+        row("candle with drips, at " + std::to_string(spacing).substr(0, 6) + " m", scene::makeCandle(), spacing);
+    row("torus, tube of radius 5 spacings", scene::makeTorus(0.03f, 0.01f), 0.002f);
+}
+
+// A ball that conducts so well that it has one temperature: dT/dt = -k (T^4 - Ta^4), k = eps sigma A / (m c).
+// At time scale 1 it has a hundredth of the heat.
+void greyBall(Findings& found, double ambient) {
+    for (const float scale : {1.0f, 100.0f, 5000.0f}) {
+        Lab lab(0.005f, 4000, {0, 0, 0}, scale, 1);
+        thawWorld_SetAmbient(lab.world(), static_cast<float>(ambient), 0);
+        const double heat = scale == 1 ? 22 : 2200;
+        thawMaterialDef m = stays(900, heat, 200);
+        m.emissivity = 0.95f;
+        constexpr double kStart = 400;
+        lab.body(lab.material(m), scene::makeSphere(0.04f), {0, 0, 0}, static_cast<float>(kStart));
+        const double k = 0.95 * kStefanBoltzmann * exposedArea(lab) / (massOf(lab) * heat);
+        const double nominal = 0.95 * kStefanBoltzmann * 3 / (900 * heat * 0.04);
+        const int steps = static_cast<int>(std::lround(36 * heat / 22 * 60 / static_cast<double>(scale)));
+        lab.step(steps);
+        const double t = steps / 60.0 * static_cast<double>(scale);
+        // Runge-Kutta, as the closed form gives t of T.
+        const auto theory = [&](double rate) {
+            const auto slope = [&](double T) {
+                return -rate * (T * T * T * T - ambient * ambient * ambient * ambient);
+            };
+            double T = kStart;
+            constexpr int kParts = 1000;
+            for (int n = 0; n < kParts; ++n) {
+                const double h = t / kParts, a = slope(T), b = slope(T + 0.5 * h * a), c = slope(T + 0.5 * h * b),
+                             d = slope(T + h * c);
+                T += h / 6 * (a + 2 * b + 2 * c + d);
+            }
+            return T;
+        };
+        const std::string name = "time scale " + std::to_string(static_cast<int>(scale));
+        const double T = meanTemperature(lab);
+        found.within(name + ": temperature, K", theory(nominal), T, 0.01);
+        found.within(name + ": fall by the exposed area found, K", kStart - theory(k), kStart - T, 0.01);
+    }
+}
+void greyToSpace(Findings& found) { greyBall(found, 0); }
+void greyToAmbient(Findings& found) { greyBall(found, 293.15); }
+
+// A lump in warm air that melts at one temperature: the plateau takes m L / (h A (Ta - Tm)).
+void plateau(Findings& found) {
+    for (const float scale : {1.0f, 100.0f, 5000.0f}) {
+        Lab lab(0.004f, 4000, {0, 0, 0}, scale, 1);
+        constexpr double kAir = 325, kPoint = 320, kTransfer = 5;
+        thawWorld_SetAmbient(lab.world(), static_cast<float>(kAir), static_cast<float>(kTransfer));
+        // Heats go with the time, so that a step is the same share of it: 1 in 900.
+        const double latent = 40 * static_cast<double>(scale), heat = latent / 3;
+        const Melting m{900, 100, 100, heat, heat, latent, kPoint};
+        lab.body(lab.material(stays(m)), scene::makeSphere(0.03f), {0, 0, 0}, static_cast<float>(kPoint));
+        const double expected = massOf(lab) * latent / (kTransfer * exposedArea(lab) * (kAir - kPoint));
+        double from = -1, to = -1, last = 0;
+        for (int step = 1; to < 0 && step < 4000; ++step) {
+            lab.step(1);
+            const double now = static_cast<double>(lab.counters().meltedFraction);
+            const double h = static_cast<double>(scale) / 60, t = step * h;
+            const auto crossed = [&](double level) { return t - h * (now - level) / (now - last); };
+            if (from < 0 && now > 0.05) from = crossed(0.05);
+            if (to < 0 && now > 0.95) to = crossed(0.95);
+            last = now;
+        }
+        found.within("time scale " + std::to_string(static_cast<int>(scale)) + ": from 5 to 95 % molten, s",
+                     0.9 * expected, to - from, 0.01);
+    }
+}
+
+// Light on the top of a tank of solid, under melt that holds little heat: after the transient the front goes down at
+// q / (rho (L + c (Tm - T))).
+void irradiatedSlab(Findings& found) {
+    constexpr int kWide = 6, kDeep = 30;
+    constexpr float kSpacing = 0.004f, kScale = 20;
+    constexpr double kPoint = 330, kCold = 300, kDensity = 900, kHeat = 2000, kLatent = 2e5, kDistance = 1,
+                     kPower = 2e5;
+    Lab lab(kSpacing, 2000, {0, 0, 0}, kScale, 1);
+    thawWorld_SetAmbient(lab.world(), static_cast<float>(kCold), 0);
+    const float side = kWide * kSpacing, height = kDeep * kSpacing;
+    lab.tank({0, 0, 0}, {side, 1, side});
+    thawMaterialDef m = stays({kDensity, 1.2, 4, kHeat, 20, kLatent, kPoint});
+    m.absorptivity = 1;
+    lab.box(lab.material(m), {0, 0, 0}, {side, height, side}, static_cast<float>(kCold));
+    thawHeatSourceDef lamp;
+    thawInitHeatSourceDef(&lamp);
+    lamp.position = {0.5f * side, height + static_cast<float>(kDistance), 0.5f * side};
+    lamp.power = static_cast<float>(kPower);
+    thawHeatSourceId id;
+    if (thawCreateHeatSource(lab.world(), &lamp, &id) != thawResult_ok)
+        throw LabError(thawWorld_GetLastError(lab.world()));
+    const double flux = kPower / (4 * kPi * kDistance * kDistance);
+    const double speed = flux / (kDensity * (kLatent + kHeat * (kPoint - kCold)));
+    double from = -1, to = -1, last = 0;
+    for (int step = 1; to < 0 && step < 6000; ++step) {
+        lab.step(1);
+        const double now = static_cast<double>(lab.counters().meltedFraction), h = static_cast<double>(kScale) / 60;
+        const auto crossed = [&](double level) { return h * (step - (now - level) / (now - last)); };
+        if (from < 0 && now > 0.3) from = crossed(0.3);
+        if (to < 0 && now > 0.7) to = crossed(0.7);
+        last = now;
+    }
+    found.within("speed of the front from 30 to 70 %, m/s", speed, 0.4 * static_cast<double>(height) / (to - from),
+                 0.05);
+}
+
+// Melts under a lamp, runs, the lamp goes out, sets again.
+void ledger(Findings& found) {
+    for (const float scale : {1.0f, 100.0f, 5000.0f}) {
+        Lab lab(0.004f, 4000, {0, -9.81f, 0}, scale, 1);
+        thawWorld_SetAmbient(lab.world(), 290, 15);
+        lab.floor();
+        thawMaterialDef m;
+        thawInitMaterialDef(&m, thawMaterial_wax);
+        const float share = std::min(scale / 100, 40.0f); // of the heat it needs, so that it is done in a minute
+        m.latentHeat *= share, m.specificHeatSolid *= share, m.specificHeatLiquid *= share;
+        lab.box(lab.material(m), {-0.02f, 0, -0.02f}, {0.02f, 0.04f, 0.02f}, 315);
+        thawHeatSourceDef lamp;
+        thawInitHeatSourceDef(&lamp);
+        lamp.position = {0.05f, 0.1f, 0}, lamp.power = 2000;
+        thawHeatSourceId id;
+        thawCreateHeatSource(lab.world(), &lamp, &id);
+        float most = 0;
+        lab.step(3600, [&](int frame) {
+            most = std::max(most, lab.counters().meltedFraction);
+            if (frame != 1200) return;
+            lamp.enabled = false;
+            thawHeatSource_Set(lab.world(), id, &lamp);
+        });
+        const thawLedger l = ledgerOf(lab);
+        const std::string name = "time scale " + std::to_string(static_cast<int>(scale));
+        found.atLeast(name + ": molten at most", 0.3, static_cast<double>(most));
+        found.atMost(name + ": molten in the end", 0.5 * static_cast<double>(most),
+                     static_cast<double>(lab.counters().meltedFraction));
+        found.atMost(name + ": energy that the books do not explain", 1e-5, l.energyError);
+        found.atMost(name + ": mass that the books do not explain", 1e-6, l.massError);
+    }
+}
+
+} // namespace
+
+CaseList surfaceCases() {
+    return {{"area", "what bodies radiate in one step, over sigma T^4: their area", area},
+            {"grey-ball", "a ball of 8 spacings and one temperature radiates into nothing for an hour", greyToSpace},
+            {"grey-ball-ambient", "the same into 293.15 K", greyToAmbient},
+            {"plateau", "a ball melts at one temperature in warm air: m L / (h A (Ta - Tm))", plateau},
+            {"irradiated-slab", "light on a slab: the front goes down at q / (rho (L + c dT))", irradiatedSlab},
+            {"ledger", "wax melts under a lamp for 20 s, runs, and sets for 40 s: energy and mass", ledger}};
+}
+
+} // namespace thaw::player
