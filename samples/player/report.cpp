@@ -200,10 +200,10 @@ std::string Report::json() const {
                       {"maxCompression", c.maxCompression},
                       {"meanCompression", c.meanCompression},
                       {"apparentViscosity", c.apparentViscosity}};
-    root["ledger"] = {{"massError", ledger_.massError}, {"energyError", ledger_.energyError},
-                      {"massNow", ledger_.massNow},     {"energyNow", ledger_.energyNow},
-                      {"absorbed", ledger_.absorbed},   {"contact", ledger_.contact},
-                      {"emitted", ledger_.emitted},     {"convected", ledger_.convected}};
+    root["ledger"] = {
+        {"massBurnt", ledger_.massBurnt}, {"massError", ledger_.massError}, {"energyError", ledger_.energyError},
+        {"massNow", ledger_.massNow},     {"energyNow", ledger_.energyNow}, {"absorbed", ledger_.absorbed},
+        {"contact", ledger_.contact},     {"emitted", ledger_.emitted},     {"convected", ledger_.convected}};
     Json status = Json::array();
     for (size_t b = 0; b < 32; ++b)
         if (statusCounts_[b])

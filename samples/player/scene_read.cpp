@@ -410,6 +410,12 @@ Material readMaterial(const json& value, const std::string& place, const std::st
     r.real("solidYieldStress", d.solidYieldStress, 0.0, 1e8);
     r.real("relaxationTime", d.relaxationTime, 0.0, 1e9);
     r.real("breakStrain", d.breakStrain, 0.0, 1.0);
+    r.real("burnTemperature", d.burnTemperature, 0.0, 10000.0);
+    r.real("vapourHeat", d.vapourHeat, 0.0, 1e8);
+    r.real("burnRate", d.burnRate, 0.0, 1e6);
+    if (d.burnTemperature > 0 && d.burnTemperature < d.liquidus)
+        r.bad(r.at("burnTemperature"), "must be 0 or not below liquidus (" + shortest(d.liquidus) + "), got " +
+                                           shortest(d.burnTemperature));
     if (d.setFraction > d.releaseFraction)
         r.bad(r.at("setFraction"), "must not be above releaseFraction (" + shortest(d.releaseFraction) + "), got " +
                                        shortest(d.setFraction));

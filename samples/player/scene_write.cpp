@@ -126,6 +126,9 @@ std::string materialText(const Material& material, int indent) {
     real("solidYieldStress", d.solidYieldStress, base.solidYieldStress);
     real("relaxationTime", d.relaxationTime, base.relaxationTime);
     real("breakStrain", d.breakStrain, base.breakStrain);
+    real("burnTemperature", d.burnTemperature, base.burnTemperature);
+    real("vapourHeat", d.vapourHeat, base.vapourHeat);
+    real("burnRate", d.burnRate, base.burnRate);
     if (!same(d.color, base.color)) o.add("color", vector(d.color));
     return o.end();
 }

@@ -89,6 +89,9 @@ TEST_CASE("api: a field of a material out of range is named with its value") {
         {"solidYieldStress", [](thawMaterialDef& d) { d.solidYieldStress = NAN; }},
         {"relaxationTime", [](thawMaterialDef& d) { d.relaxationTime = -1; }},
         {"breakStrain", [](thawMaterialDef& d) { d.breakStrain = 1.5f; }},
+        {"burnTemperature", [](thawMaterialDef& d) { d.burnTemperature = d.liquidus - 1; }},
+        {"vapourHeat", [](thawMaterialDef& d) { d.vapourHeat = -1; }},
+        {"burnRate", [](thawMaterialDef& d) { d.burnRate = NAN; }},
         {"color", [](thawMaterialDef& d) { d.color.z = NAN; }},
     };
     for (const Case& c : cases) {

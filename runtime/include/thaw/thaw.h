@@ -226,6 +226,11 @@ typedef struct thawMaterialDef {
     float solidYieldStress; /* Pa, von Mises stress above which the solid flows; range 0..1e8; 0, the default: never */
     float relaxationTime; /* s, shear stress of the solid falls as e^(-t / this); range 0..1e9; 0, the default: never */
     float breakStrain;    /* 1, elastic stretch at which the solid tears; range 0..1; 0, the default: never */
+    /* Burn-off: what is hotter than this turns to vapour, particle by particle. */
+    float burnTemperature; /* K, range liquidus..1e5, or 0, the default: never */
+    float vapourHeat;      /* J/kg above burnTemperature that a particle must have to go, and takes along; range 0..1e8,
+                              default 0 */
+    float burnRate; /* 1/s of heat time, of what may go; range 0..1e6, default 1: a share 1 - e^(-burnRate t) is gone */
 } thawMaterialDef;
 
 /* Fills with a preset. An unknown preset fills with wax. Sources of the numbers: third_party_notes/data_sources.md. */
@@ -526,6 +531,7 @@ THAW_API thawResult thawWorld_ExtractSurface(thawWorld* world, const thawSurface
 
 typedef struct thawLedger {
     double massAdded, massRemoved, massNow; /* kg */
+    double massBurnt, energyBurnt;          /* kg and J that turned to vapour */
     double energyAdded;                     /* J, enthalpy that bodies brought, relative to each material's solidus */
     double energyRemoved;                   /* J, taken out with destroyed bodies and bad particles */
     double absorbed;                        /* J from sources */
@@ -533,8 +539,8 @@ typedef struct thawLedger {
     double emitted;                         /* J by thermal radiation, net of what ambient sends back */
     double convected;                       /* J to the air */
     double energyNow;                       /* J, sum of m H */
-    double massError;                       /* |massNow - added + removed| / added */
-    double energyError; /* |energyNow - (added - removed + absorbed + contact - emitted - convected)| / largest sum
+    double massError;                       /* |massNow - added + removed + burnt| / added */
+    double energyError; /* |energyNow - (added - removed - burnt + absorbed + contact - emitted - convected)| / largest sum
                               moved */
 } thawLedger;
 THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);

@@ -168,6 +168,12 @@ void checkMaterial(Check& c, const thawMaterialDef* d) {
     c.range("solidYieldStress", d->solidYieldStress, 0, 1e8);
     c.range("relaxationTime", d->relaxationTime, 0, 1e9);
     c.range("breakStrain", d->breakStrain, 0, 1);
+    c.range("burnTemperature", d->burnTemperature, 0, 1e5);
+    c.range("vapourHeat", d->vapourHeat, 0, 1e8);
+    c.range("burnRate", d->burnRate, 0, 1e6);
+    if (c.ok() && d->burnTemperature > 0 && d->burnTemperature < d->liquidus)
+        c.fail(thawResult_invalidArgument, "burnTemperature: must be 0 or not below liquidus %g, got %g",
+               static_cast<double>(d->liquidus), static_cast<double>(d->burnTemperature));
     if (c.ok() && d->setFraction > d->releaseFraction)
         c.fail(thawResult_invalidArgument, "setFraction: must not be above releaseFraction %g, got %g",
                static_cast<double>(d->releaseFraction), static_cast<double>(d->setFraction));

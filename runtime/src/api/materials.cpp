@@ -119,6 +119,7 @@ thawMaterialDef materialPreset(thawMaterialPreset preset) {
     d.cohesion = p.cohesion, d.adhesion = p.adhesion;
     d.setFraction = 0.35f, d.releaseFraction = 0.6f;
     d.color = p.color;
+    d.burnRate = 1;
     return d;
 }
 

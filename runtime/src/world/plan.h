@@ -20,6 +20,7 @@ struct Needs {
     bool timeScaleZero = false;
     bool unequal = true;         // temperatures differ within the melt
     bool awayFromAmbient = true; // something is warmer or colder than ambient
+    bool burns = false;          // something is hot enough to turn to vapour
     bool heatDue = true;         // by heatInterval
 };
 

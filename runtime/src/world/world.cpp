@@ -3,6 +3,7 @@
 #include "world/world.h"
 
 #include "base/kernel.h"
+#include "heat/burn.h"
 #include "heat/sources.h"
 #include "motion/carry.h"
 #include "neighbors/exposure.h"
@@ -119,6 +120,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
         emitted_ += heatStats.emitted, convected_ += heatStats.convected;
         if (heatStats.raysReduced) status |= thawStep_raysReduced;
     }
+    const double heatSeconds = now.heatDue ? heatTimePending_ : 0;
     if (now.heatDue) heatTimePending_ = 0;
 
     MotionStats motionStats{};
@@ -173,15 +175,16 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     }
     if (on(thawStage_stats)) {
         auto t = timed(thawStage_stats);
+        if (heatSeconds > 0) burnOff(heatSeconds);
         measure();
         if (badParticles_ > 0) {
             status |= thawStep_badParticlesRemoved;
             removeParticles(
-                [](const Particles& p, int i, uint32_t) {
-                    return !isFinite(p.position[i].xyz()) || !isFinite(p.velocity[i].xyz()) ||
-                           !std::isfinite(p.enthalpy[i]);
+                [this](size_t k) {
+                    return !isFinite(particles.position[k].xyz()) || !isFinite(particles.velocity[k].xyz()) ||
+                           !std::isfinite(particles.enthalpy[k]);
                 },
-                0);
+                massRemoved_, energyRemoved_);
             measure();
         }
     }
@@ -227,6 +230,8 @@ Needs World::needs() const {
         n.areaSources += strength != 0 && hasExtent(s.type);
     }
     n.timeScaleZero = def.thermalTimeScale == 0;
+    for (const Material& m : materials)
+        n.burns |= !n.timeScaleZero && m.def.burnTemperature > 0 && maxTemperature_ > m.def.burnTemperature;
     n.unequal = maxTemperature_ - minTemperature_ > kEqualTemperature;
     for (const Collider& c : colliders)
         n.unequal |=
@@ -541,14 +546,14 @@ void World::measure() {
     counters_.fixed = particles.count - counters_.moving;
 }
 
-void World::removeParticles(bool (*remove)(const Particles&, int, uint32_t), uint32_t argument) {
+template <class F> int World::removeParticles(F&& remove, double& mass, double& energy) {
     int kept = 0;
     for (int i = 0; i < particles.count; ++i) {
         const size_t k = static_cast<size_t>(i);
-        if (remove(particles, i, argument)) {
-            const double mass = particles.velocity[k].w;
-            massRemoved_ += mass;
-            if (std::isfinite(particles.enthalpy[k])) energyRemoved_ += mass * particles.enthalpy[k];
+        if (remove(k)) {
+            const double m = particles.velocity[k].w;
+            mass += m;
+            if (std::isfinite(particles.enthalpy[k])) energy += m * particles.enthalpy[k];
             continue;
         }
         const size_t to = static_cast<size_t>(kept++);
@@ -557,6 +562,8 @@ void World::removeParticles(bool (*remove)(const Particles&, int, uint32_t), uin
         THAW_PARTICLE_FIELDS(X)
 #undef X
     }
+    const int gone = particles.count - kept;
+    if (gone == 0) return 0;
     particles.count = kept;
     particles.moverCount = std::min(particles.moverCount, kept);
     particles.pad();
@@ -564,6 +571,18 @@ void World::removeParticles(bool (*remove)(const Particles&, int, uint32_t), uin
     rigid_.gather(particles);
     listsStale_ = holdStale_ = true;
     stepsSinceRelabel_ = kRelabelInterval;
+    return gone;
+}
+
+void World::burnOff(double heatSeconds) {
+    const auto burns = [](const Material& m) { return m.def.burnTemperature > 0; };
+    if (std::none_of(materials.begin(), materials.end(), burns)) return;
+    removeParticles(
+        [&](size_t k) {
+            return turnsToVapour(materials[particles.material[k]], particles.enthalpy[k], particles.id[k], steps_,
+                                 heatSeconds);
+        },
+        massBurnt_, energyBurnt_);
 }
 
 thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::string& message, uint32_t& index1) {
@@ -668,8 +687,7 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
 }
 
 void World::removeBody(uint32_t index) {
-    removeParticles([](const Particles& p, int i, uint32_t body) { return p.body[static_cast<size_t>(i)] == body; },
-                    index);
+    removeParticles([&](size_t k) { return particles.body[k] == index; }, massRemoved_, energyRemoved_);
     bodies[index].alive = false;
     measure();
 }
@@ -823,12 +841,13 @@ uint64_t World::stateHash() const {
 thawLedger World::ledger() const {
     thawLedger l{};
     l.massAdded = massAdded_, l.massRemoved = massRemoved_, l.massNow = massNow_;
+    l.massBurnt = massBurnt_, l.energyBurnt = energyBurnt_;
     l.energyAdded = energyAdded_, l.energyRemoved = energyRemoved_, l.energyNow = energyNow_;
     l.absorbed = absorbed_, l.contact = contact_, l.emitted = emitted_, l.convected = convected_;
-    l.massError = massAdded_ > 0 ? std::abs(massNow_ - massAdded_ + massRemoved_) / massAdded_ : 0;
-    const double expected = energyAdded_ - energyRemoved_ + absorbed_ + contact_ - emitted_ - convected_;
-    const double scale = std::max({std::abs(energyAdded_ - energyRemoved_), std::abs(absorbed_), std::abs(contact_),
-                                   std::abs(emitted_), std::abs(convected_)});
+    l.massError = massAdded_ > 0 ? std::abs(massNow_ - massAdded_ + massRemoved_ + massBurnt_) / massAdded_ : 0;
+    const double expected = energyAdded_ - energyRemoved_ - energyBurnt_ + absorbed_ + contact_ - emitted_ - convected_;
+    const double scale = std::max({std::abs(energyAdded_ - energyRemoved_), std::abs(energyBurnt_), std::abs(absorbed_),
+                                   std::abs(contact_), std::abs(emitted_), std::abs(convected_)});
     l.energyError = scale > 0 ? std::abs(energyNow_ - expected) / scale : 0;
     return l;
 }

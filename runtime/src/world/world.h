@@ -102,7 +102,9 @@ private:
     BondFrame bondFrame(float dt);
     bool anySoft() const; // some material is elastic
     void measure();
-    void removeParticles(bool (*remove)(const Particles&, int, uint32_t), uint32_t argument);
+    // Of all rows k for which remove(k); adds what they had to mass and energy. Returns how many.
+    template <class F> int removeParticles(F&& remove, double& mass, double& energy);
+    void burnOff(double heatSeconds);
 
     Neighbors neighbors_;
     Motion motion_;
@@ -134,6 +136,7 @@ private:
 
     // Ledger and counters of the last measurement.
     double massAdded_ = 0, massRemoved_ = 0, energyAdded_ = 0, energyRemoved_ = 0;
+    double massBurnt_ = 0, energyBurnt_ = 0;
     double absorbed_ = 0, contact_ = 0, emitted_ = 0, convected_ = 0;
     double massNow_ = 0, energyNow_ = 0, liquidMass_ = 0;
     float minTemperature_ = 0, maxTemperature_ = 0;

@@ -214,6 +214,50 @@ void ledger(Findings& found) {
     }
 }
 
+// Wax hotter than its burning temperature: e^(-rate t) of it is left, with the heat that it has, and the same bits on
+// any number of threads. Then in the open, on a floor, beside a lamp.
+void burnOff(Findings& found) {
+    uint64_t hash[2];
+    for (const int threads : {1, 3}) {
+        Lab lab(0.002f, 9000, {0, 0, 0}, 1, threads);
+        thawWorld_SetAmbient(lab.world(), 600, 0);
+        thawMaterialDef m = stays({900, 0.2, 0.2, 2000, 2000, 2e5, 330});
+        m.burnTemperature = 550, m.burnRate = 0.5f, m.vapourHeat = 9e4f; // at 600 K it has 1e5
+        lab.box(lab.material(m), {0, 0, 0}, {0.04f, 0.04f, 0.04f}, 600);
+        const double before = massOf(lab);
+        lab.step(60);
+        hash[threads > 1] = thawWorld_GetStateHash(lab.world());
+        if (threads > 1) continue;
+        found.within("left after 1 s at 0.5 / s", std::exp(-0.5), massOf(lab) / before, 0.03);
+        const thawLedger l = ledgerOf(lab);
+        found.within("heat taken along, J/kg", 2e5 + 2000 * 270.0, l.energyBurnt / l.massBurnt, 1e-5);
+        found.atMost("energy that the books do not explain", 1e-5, l.energyError);
+        found.atMost("mass that the books do not explain", 1e-6, l.massError);
+    }
+    found.atMost("threads make a difference", 0, hash[0] != hash[1]);
+    Lab lab(0.004f, 2000, {0, -9.81f, 0}, 20);
+    lab.floor();
+    thawMaterialDef m;
+    thawInitMaterialDef(&m, thawMaterial_wax);
+    m.burnTemperature = 420, m.burnRate = 1;
+    lab.box(lab.material(m), {-0.02f, 0, -0.02f}, {0.02f, 0.04f, 0.02f}, 315);
+    thawHeatSourceDef lamp;
+    thawInitHeatSourceDef(&lamp);
+    lamp.position = {0.05f, 0.06f, 0}, lamp.power = 2000;
+    thawHeatSourceId id;
+    if (thawCreateHeatSource(lab.world(), &lamp, &id) != thawResult_ok)
+        throw LabError(thawWorld_GetLastError(lab.world()));
+    lab.step(1200);
+    lamp.enabled = false;
+    if (thawHeatSource_Set(lab.world(), id, &lamp) != thawResult_ok)
+        throw LabError(thawWorld_GetLastError(lab.world()));
+    lab.step(2400);
+    const thawLedger l = ledgerOf(lab);
+    found.atLeast("by a lamp: share of the wax that burns", 0.05, l.massBurnt / l.massAdded);
+    found.atMost("by a lamp: energy that the books do not explain", 1e-5, l.energyError);
+    found.atMost("by a lamp: mass that the books do not explain", 1e-6, l.massError);
+}
+
 } // namespace
 
 CaseList surfaceCases() {
@@ -222,7 +266,9 @@ CaseList surfaceCases() {
             {"grey-ball-ambient", "the same into 293.15 K", greyToAmbient},
             {"plateau", "a ball melts at one temperature in warm air: m L / (h A (Ta - Tm))", plateau},
             {"irradiated-slab", "light on a slab: the front goes down at q / (rho (L + c dT))", irradiatedSlab},
-            {"ledger", "wax melts under a lamp for 20 s, runs, and sets for 40 s: energy and mass", ledger}};
+            {"ledger", "wax melts under a lamp for 20 s, runs, and sets for 40 s: energy and mass", ledger},
+            {"burn-off", "what is hotter than burnTemperature goes at burnRate: mass, energy, the same on any threads",
+             burnOff}};
 }
 
 } // namespace thaw::player
