@@ -34,6 +34,9 @@ constexpr float kEnough = 0.02f;
 // Way by a spacing, of the particle or of what shades, changes at most this share of what is seen, as a rule: few are
 // at the edge of a shadow. What moves by a twelfth of a spacing in a step looks in every one.
 constexpr float kByWay = 0.25f;
+// In more doubt than that, nobody asks what else moved: the 66 regions of a candle cost as much as the ray. Where all
+// may look, being due is enough.
+constexpr float kSurely = 0.25f;
 constexpr uint8_t kOldest = 100;
 // An obstacle this many spacings off moves its shadow by one when the source moves by 1 / kLever of its distance.
 constexpr float kLever = 40;
@@ -65,30 +68,37 @@ Ray rayTo(const Receiver& r, Vec3 center, Vec3 point, float spacing) {
     return ray;
 }
 
-// Does the way from a to b, which widens to `extent` on all sides of it at b, pass the box? Yes when in doubt.
-bool passes(const Box& box, Vec3 a, Vec3 b, float extent) {
-    if (extent > 0) {
-        // As wide as it is where the box ends.
-        const Vec3 half = 0.5f * (box.upper - box.lower), way = b - a;
-        const float l2 = dot(way, way),
-                    last = dot(box.lower + half - a, way) +
-                           (std::abs(half.x * way.x) + std::abs(half.y * way.y) + std::abs(half.z * way.z));
-        if (last < l2) extent *= std::max(0.0f, last / l2);
+// The way from a to b, which widens to `extent` on all sides of it at b.
+struct Way {
+    Vec3 from, way, inverse;
+    float extent;
+    Way(Vec3 a, Vec3 b, float extent_) : from(a), way(b - a), extent(extent_) {
+        const auto turn = [](float v) { return std::abs(v) > 1e-30f ? 1 / v : 1e30f; };
+        inverse = {turn(way.x), turn(way.y), turn(way.z)};
     }
-    float enter = 0, leave = 1;
-    const float from[3] = {a.x, a.y, a.z}, to[3] = {b.x, b.y, b.z};
-    const float low[3] = {box.lower.x, box.lower.y, box.lower.z}, high[3] = {box.upper.x, box.upper.y, box.upper.z};
-    for (int k = 0; k < 3; ++k) {
-        const float way = to[k] - from[k], l = low[k] - extent, h = high[k] + extent;
-        if (std::abs(way) < 1e-12f) {
-            if (from[k] < l || from[k] > h) return false;
-            continue;
+    // Does it pass the box? Yes when in doubt.
+    bool passes(const Box& box) const {
+        float grow = extent;
+        if (grow > 0) {
+            // As wide as it is where the box ends.
+            const Vec3 half = 0.5f * (box.upper - box.lower);
+            const float l2 = dot(way, way),
+                        last = dot(box.lower + half - from, way) +
+                               (std::abs(half.x * way.x) + std::abs(half.y * way.y) + std::abs(half.z * way.z));
+            if (last < l2) grow *= std::max(0.0f, last / l2);
         }
-        const float u = (l - from[k]) / way, v = (h - from[k]) / way;
-        enter = std::max(enter, std::min(u, v)), leave = std::min(leave, std::max(u, v));
+        float enter = 0, leave = 1;
+        const auto slab = [&](float low, float high, float at, float inv) {
+            const float u = (low - grow - at) * inv, v = (high + grow - at) * inv;
+            const float near = u < v ? u : v, far = u < v ? v : u;
+            enter = near > enter ? near : enter, leave = far < leave ? far : leave;
+        };
+        slab(box.lower.x, box.upper.x, from.x, inverse.x);
+        slab(box.lower.y, box.upper.y, from.y, inverse.y);
+        slab(box.lower.z, box.upper.z, from.z, inverse.z);
+        return enter <= leave;
     }
-    return enter <= leave;
-}
+};
 
 float uniform(uint64_t bits) { return static_cast<float>(bits & 0xffffff) * (1.0f / 16777216.0f); }
 
@@ -226,6 +236,7 @@ void Radiation::Impl::weigh(const HeatFrame& f, int begin, int end) {
         const Receiver r = receiver(f, row);
         const float spacing = spacingOf(f, row), own = std::min(1.0f, kByWay * moved[at] / spacing);
         const bool unknown = p.rayAge[row] == 0;
+        const float sure = f.rayRefresh < 1 ? kSurely : kEnough / std::max(1.0f, static_cast<float>(p.rayAge[row]));
         uint64_t shares = unknown ? ~uint64_t{0} : p.rayShares[row];
         float all = 0, received = 0, change = unknown ? 0.0f : p.rayChange[row], unseen = 0;
         for (const Lit& s : emitters) {
@@ -248,15 +259,17 @@ void Radiation::Impl::weigh(const HeatFrame& f, int begin, int end) {
                 const float far = s.type == thawHeatSource_directional ? 1.0f : length(there - r.position);
                 doubt += std::min(1.0f, kLever * s.shift / std::max(far, 1e-6f));
             }
-            // Where its rays against the melt begin to see.
-            const Ray ray = rayTo(r, p.position[row].xyz(), there, spacing);
-            const Vec3 away = ray.raised + std::min(ray.skip, ray.distance) * ray.direction;
-            if (visibility)
+            if (doubt < sure && visibility && !visibility->stirs().empty()) {
+                // Against the melt, rays only see from their skip on.
+                const Ray ray = rayTo(r, p.position[row].xyz(), there, spacing);
+                const Way fromSurface(r.position, there, s.extent),
+                    fromSkip(ray.raised + std::min(ray.skip, ray.distance) * ray.direction, there, s.extent);
                 for (const Stir& stir : visibility->stirs()) {
-                    const float most = std::min(1.0f, kByWay * stir.amount / spacing);
-                    if (doubt >= 1) break;
-                    if (passes(stir.box, stir.melt ? away : r.position, there, s.extent)) doubt += most;
+                    if (!(stir.melt ? fromSkip : fromSurface).passes(stir.box)) continue;
+                    doubt += std::min(1.0f, kByWay * stir.amount / spacing);
+                    if (doubt >= sure) break;
                 }
+            }
             change += std::min(1.0f, doubt) * size;
         }
         const float age = static_cast<float>(p.rayAge[row]);
