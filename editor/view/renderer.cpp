@@ -113,6 +113,14 @@ MaterialLook materialLook(thawMaterialPreset preset) {
         return {{0.74f, 0.87f, 0.93f}, 0.95f, 0.10f};
     case thawMaterial_icecream:
         return {{0.88f, 0.74f, 0.66f}, 0.40f, 0.62f};
+    case thawMaterial_darkchocolate:
+        return {{0.05f, 0.022f, 0.012f}, 0.08f, 0.30f};
+    case thawMaterial_aluminium:
+        return {{0.80f, 0.81f, 0.83f}, 0.0f, 0.25f};
+    case thawMaterial_iron:
+        return {{0.45f, 0.44f, 0.43f}, 0.0f, 0.40f};
+    case thawMaterial_lava:
+        return {{0.06f, 0.05f, 0.05f}, 0.0f, 0.70f};
     default:
         return {};
     }

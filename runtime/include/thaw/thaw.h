@@ -189,10 +189,14 @@ THAW_API thawResult thawWorld_SetThermalTimeScale(thawWorld* world, float scale)
 
 typedef enum thawMaterialPreset {
     thawMaterial_wax = 0, /* paraffin */
-    thawMaterial_chocolate,
+    thawMaterial_chocolate, /* milk */
     thawMaterial_butter,
     thawMaterial_ice,
     thawMaterial_icecream,
+    thawMaterial_darkchocolate,
+    thawMaterial_aluminium,
+    thawMaterial_iron,
+    thawMaterial_lava, /* basalt */
     thawMaterial_presetCount
 } thawMaterialPreset;
 

@@ -10,6 +10,7 @@ struct Preset {
     float density, solidus, liquidus, latent, cs, cl, ks, kl, muSolid, muLiquid, yield, absorptivity, emissivity;
     float cohesion, adhesion;
     thawVec3 color;
+    thawFlow flow = thawFlow_bingham;
 };
 
 // third_party_notes/data_sources.md says where each number is from. One density for both phases (their mean where they
@@ -100,6 +101,75 @@ constexpr Preset kPresets[thawMaterial_presetCount] = {
      6,
      0.5f,
      {0.96f, 0.80f, 0.78f}},
+    {"darkchocolate",
+     1270,
+     302.15f,
+     307.15f,
+     46e3f,
+     1590,
+     1670,
+     0.24f,
+     0.26f,
+     1e4f,
+     6.056f,
+     29.02f,
+     0.92f,
+     0.92f,
+     6,
+     0.5f,
+     {0.07f, 0.03f, 0.015f},
+     thawFlow_casson},
+    {"aluminium",
+     2460,
+     932.97f,
+     933.97f,
+     397e3f,
+     1080,
+     1180,
+     211,
+     94,
+     1e5f,
+     1.3e-3f,
+     0,
+     0.2f,
+     0.2f,
+     6,
+     0.5f,
+     {0.8f, 0.81f, 0.83f}},
+    {"iron",
+     7100,
+     1810.5f,
+     1811.5f,
+     247e3f,
+     760,
+     820,
+     34,
+     33,
+     1e5f,
+     6e-3f,
+     0,
+     0.35f,
+     0.3f,
+     6,
+     0.5f,
+     {0.45f, 0.44f, 0.43f}},
+    {"lava",
+     2700,
+     1273.15f,
+     1473.15f,
+     375e3f,
+     1200,
+     1200,
+     1.5f,
+     1.5f,
+     1e6f,
+     100,
+     0,
+     0.95f,
+     0.95f,
+     6,
+     0.5f,
+     {0.06f, 0.05f, 0.05f}},
 };
 
 } // namespace
@@ -114,7 +184,7 @@ thawMaterialDef materialPreset(thawMaterialPreset preset) {
     d.specificHeatSolid = p.cs, d.specificHeatLiquid = p.cl;
     d.conductivitySolid = p.ks, d.conductivityLiquid = p.kl;
     d.viscositySolid = p.muSolid, d.viscosityLiquid = p.muLiquid;
-    d.yieldStress = p.yield, d.flow = thawFlow_bingham;
+    d.yieldStress = p.yield, d.flow = p.flow;
     d.absorptivity = p.absorptivity, d.emissivity = p.emissivity;
     d.cohesion = p.cohesion, d.adhesion = p.adhesion;
     d.setFraction = 0.35f, d.releaseFraction = 0.6f;
