@@ -29,10 +29,10 @@ uint64_t withShare(uint64_t shares, int source, uint32_t share) {
     return (shares & ~(uint64_t{255} << (8 * source))) | static_cast<uint64_t>(share) << (8 * source);
 }
 // A look is due when the share of the irradiance that may have changed, times the steps since the last look, passes
-// this; of a change by a five-thousandth at last.
-constexpr float kEnough = 0.02f;
+// this; of a change by a two-thousandth at last.
+constexpr float kEnough = 0.05f;
 // Way by a spacing, of the particle or of what shades, changes at most this share of what is seen, as a rule: few are
-// at the edge of a shadow. What moves by a twelfth of a spacing in a step looks in every one.
+// at the edge of a shadow. What moves by a fifth of a spacing in a step looks in every one.
 constexpr float kByWay = 0.25f;
 // In more doubt than that, nobody asks what else moved: the 66 regions of a candle cost as much as the ray. Where all
 // may look, being due is enough.
