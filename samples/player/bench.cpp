@@ -39,8 +39,8 @@ int benchScenes(const Options& o) {
         if (!file) throw RunError(scene::oneLine(o.out, 400) + ": cannot be written");
     }
     std::ostream& out = o.out.empty() ? std::cout : file;
-    out << "scene,particles,threads,budget,seconds,run,p50_ms,p95_ms,p99_ms,max_ms,frames,frames_over,melted,status,"
-           "hash\n";
+    out << "scene,particles,threads,budget,seconds,run,p50_ms,p95_ms,p99_ms,max_ms,frames,frames_over,melted,"
+           "heat_share,status,hash\n";
     bool differs = false;
     for (const std::string& path : o.scenes) {
         const scene::Scene scene = scene::loadScene(path);
@@ -78,11 +78,11 @@ int benchScenes(const Options& o) {
                                         budget.work.viscosityIterations)
                             : formatted("%g ms", double(budget.milliseconds));
                     out << csvText(report.name)
-                        << formatted(",%d,%d,%s,%g,%d,%.3f,%.3f,%.3f,%.3f,%d,%zu,%.5f,%u,%s\n",
+                        << formatted(",%d,%d,%s,%g,%d,%.3f,%.3f,%.3f,%.3f,%d,%zu,%.5f,%.3f,%u,%s\n",
                                      report.counters().particles, report.threads, budgetText.c_str(), seconds, run,
                                      report.percentile(0.5), report.percentile(0.95), report.percentile(0.99),
                                      report.percentile(1.0), frames, report.framesOver(),
-                                     double(report.counters().meltedFraction), report.statusUnion(),
+                                     double(report.counters().meltedFraction), report.heatShare(), report.statusUnion(),
                                      hashText(report.hash()).c_str());
                     out.flush();
                 }

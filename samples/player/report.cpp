@@ -22,6 +22,14 @@ std::string planText(const thawPlan& plan) {
 }
 } // namespace
 
+double Report::heatShare() const {
+    double all = 0, heat = 0;
+    for (int s = 0; s < thawStage_count; ++s) all += stageMs_[s];
+    for (const thawStage s : {thawStage_radiation, thawStage_conduction, thawStage_loss, thawStage_phase})
+        heat += stageMs_[s];
+    return all > 0 ? heat / all : 0;
+}
+
 std::string formatted(const char* format, ...) {
     char text[512];
     va_list list;

@@ -21,6 +21,7 @@ public:
 
     // Notes what the last step did. ms: wall clock of the call, by the caller's own watch.
     void addStep(const thawWorld* world, double ms, uint32_t status);
+    double heatShare() const; // of the time of all stages: radiation, conduction, loss, and phase
     // Notes the state at the end; call once, after the last step.
     void finish(const thawWorld* world);
 

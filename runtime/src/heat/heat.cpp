@@ -22,8 +22,8 @@ constexpr double kHottest = 1e5;                    // K, nothing gets hotter; t
 
 // A part of a step takes a flat surface's own heat over ambient to 1 / (1 + kPart) of it at the most: conduction brings
 // more from below only in the next part. In one part a ball of 8 spacings that glows for an hour in steps of 83 s cools
-// 2.6 to 3.9 % too little, so 0.1 to 0.4 %.
-constexpr double kPart = 0.01;
+// 2.6 to 3.9 % too little, so 0.2 to 0.7 %.
+constexpr double kPart = 0.02;
 constexpr int kMostParts = 16;
 
 struct Booking {
