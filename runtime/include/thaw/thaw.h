@@ -435,7 +435,7 @@ THAW_API const char* thawReasonString(thawReason reason);
 /* Work units: how much a step may do. The same units and inputs give the same bits on any number of threads. */
 typedef struct thawWork {
     int32_t subSteps;            /* at most this many; range 1..16 */
-    int32_t pressureIterations;  /* range 1..64; 4 is enough at rest */
+    int32_t pressureIterations;  /* range 1..64; 4 is enough for looks, 8 keeps what is at rest within 3 % */
     int32_t viscosityIterations; /* cap of the conjugate gradients; range 1..200 */
     int32_t heatInterval;        /* heat every n-th step, energy-exact; range 1..8 */
     float rayRefresh; /* largest share of the lit surface that looks anew in a step who is in the way, where that may

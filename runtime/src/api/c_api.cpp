@@ -246,7 +246,7 @@ thawBudget defaultBudget() {
     b.structSize = sizeof b, b.cookie = thaw::kDefCookie;
     b.mode = thawBudget_work;
     b.milliseconds = 4;
-    b.work = {4, 4, 12, 1, 1.0f, 1, 80, 16};
+    b.work = {4, 8, 12, 1, 1.0f, 1, 80, 16};
     return b;
 }
 

@@ -4,6 +4,7 @@
 
 #include "motion/carry.h"
 #include "motion/links.h"
+#include "motion/rigid_numbers.h"
 
 namespace thaw {
 namespace {
@@ -125,15 +126,17 @@ int Anchors::update(const AnchorFrame& f, bool fresh) {
             else if (adopts)
                 anchor = adopted;
         }
-        bool pressed = false;
-        for (const uint32_t i : queue_) pressed = pressed || pressedAt(f, i, anchor);
+        bool pressed = false, soft = false;
+        for (const uint32_t i : queue_) pressed = pressed || pressedAt(f, i, anchor), soft |= p.bondSlot[i] != 0;
+        const bool rigid =
+            pressed && !soft && queue_.size() >= kLeastPiece && f.rigid.create(p, queue_.data(), queue_.size(), 0);
         for (const uint32_t i : queue_) {
+            if (rigid) continue; // with the velocity that it has
             p.anchor[i] = anchor;
             if (!pressed) continue;
-            // With the velocity that it has.
             p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~(kFixed | kAsleep));
             p.anchor[i] = 0;
-            p.velocityChange[i] = {0, 0, 0, 1};
+            p.velocityChange[i] = {};
             p.stiffness[i] = 0;
         }
         loose += pressed ? static_cast<int>(queue_.size()) : 0;

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "geometry/colliders.h"
+#include "motion/rigid.h"
 #include "neighbors/neighbors.h"
 #include "particles/particles.h"
 
@@ -16,12 +17,13 @@ struct AnchorFrame {
     const Collider* colliders;
     int colliderCount;
     Tasks& tasks;
+    Rigid& rigid;
 };
 
 // Which collider each held piece hangs on, of those that are told apart (carry.h); pieces on all others hang on the
 // world, which stands still. A piece is what hangs together through held particles of one anchor. It keeps its anchor
-// as long as it touches it; a piece that something comes into which does not move with it comes loose as a whole and is
-// pushed.
+// as long as it touches it; a piece that something comes into which does not move with it comes loose as a whole: it goes
+// on as a rigid piece, or as loose particles where it is small or soft, and is pushed.
 class Anchors {
 public:
     explicit Anchors(Allocator& allocator)

@@ -43,8 +43,8 @@ void wallFraction(const Contact* c, int n, float h, float& fraction, Vec3& gradi
     float f[Motion::kContacts], slope[Motion::kContacts], open = 1;
     for (int k = 0; k < n; ++k) {
         const float q = std::max(-1.0f, c[k].distance / h);
-        f[k] = q < 1 ? WallTable::lookup(table.fraction, q) : 0;
-        slope[k] = q < 1 ? -WallTable::lookup(table.gradient, q) / h : 0;
+        f[k] = q < 1 ? WallTable::lookup(table.mirrored, q) : 0;
+        slope[k] = q < 1 ? -WallTable::lookup(table.mirroredGradient, q) / h : 0;
         open *= 1 - f[k];
     }
     gradient = {};
@@ -89,6 +89,7 @@ void Motion::begin(const MotionFrame& f) {
     Particles& p = f.particles;
     if (f.rigid) f.rigid->begin(f);
     bonded_ = f.bonds && f.bonds->any();
+    reporting_ = false;
     if (p.moverCount == 0) return;
     if (bonded_) f.bonds->lay(f.bondFrame());
 
@@ -250,7 +251,8 @@ void Motion::begin(const MotionFrame& f) {
             }
             const float wanted = viscosity + p.velocityChange[i].w;
             const float floor = apparentFloor(density, spacing, stepTime, length(p.velocity[i].xyz()));
-            const float solved = std::max(wanted, floor) + shear * fold * pressure;
+            const float least = std::max(wanted, floor), folded = shear * fold * pressure;
+            const float solved = std::sqrt(least * least + folded * folded);
             if (solved > viscosity && !elastic) sums.d = std::max(sums.d, solved);
             trait_[i] = {solved / shear, elastic ? 0.0f : f.materials[material].def.cohesion * (0.1f * kGravity),
                          p.velocity[i].w, pressure};

@@ -39,8 +39,9 @@ inline constexpr float kLandingFrom = 0.3f;
 // Share of the density error taken back in a step. Feedback adds the velocity error / dt, so it falls with dt.
 inline float densityFeedback(int subSteps) { return subSteps <= 2 ? 0.3f : subSteps == 3 ? 0.2f : 0.1f; }
 inline float jacobiWeight(int subSteps) { return subSteps <= 3 ? 0.4f : 0.25f; }
-// Pressure P adds viscosity fold P dt: the geometry is frozen, and without it pressure directions are unstable above
-// P dt^2 / (rho dx^2) of about 1.
+// Under pressure P a liquid is at least as viscous as fold P dt: the geometry is frozen, and without it pressure
+// directions are unstable above P dt^2 / (rho dx^2) of about 1. The root of the squares of that and its own: with the
+// sum films of 5 Pa s run 12 % slow.
 inline float pressureFold(int subSteps) { return subSteps <= 2 ? 0.5f : 1.0f; }
 
 // Pa s. What moves faster than the geometry can follow is held together by this much at least. Measured on a solid that

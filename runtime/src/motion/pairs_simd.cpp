@@ -237,8 +237,7 @@ void separationGroups(const SeparationPass& p, int begin, int end) {
                 F32 x = hn::Sub(xi.x, xj.x), y = hn::Sub(xi.y, xj.y), z = hn::Sub(xi.z, xj.z);
                 const F32 r2 = dot3(x, y, z, x, y, z);
                 const Mask held = hn::Lt(xj.w, zero());
-                const F32 scale =
-                    hn::IfThenElse(held, all(0.5f * kNearHeld / kSupport), all(0.5f * kNear / kSupport));
+                const F32 scale = hn::IfThenElse(held, all(0.5f * kNearHeld / kSupport), all(0.5f * kNear / kSupport));
                 const F32 d = hn::Mul(scale, hn::Add(hi, hn::Abs(xj.w)));
                 const Mask close = hn::Lt(r2, hn::Mul(d, d));
                 if (hn::AllFalse(kF32, close)) continue;

@@ -15,6 +15,7 @@
 namespace thaw {
 
 void Motion::addImpulses(Collider* colliders, int colliderCount) const {
+    if (!reporting_) return;
     for (int c = 0; c < colliderCount; ++c) {
         const int32_t slot = reportSlot_[static_cast<size_t>(c)];
         if (slot < 0) continue;

@@ -283,7 +283,7 @@ void World::arrive() {
 void World::findAnchors() {
     anchorsFresh_ = false;
     if (listsStale_) refreshNeighbors(), listsStale_ = true; // the step's own stage finds the surface anew as well
-    anchors_.update({particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()), tasks}, true);
+    anchors_.update({particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()), tasks, rigid_}, true);
 }
 
 // Where a collider shall be at the end of the next step.
@@ -503,7 +503,7 @@ void World::holdAndRelease(float dt) {
         if (b.changed()) listsStale_ = true;
     }
     if (!toldApart_) return;
-    const AnchorFrame frame{particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()), tasks};
+    const AnchorFrame frame{particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()), tasks, rigid_};
     if ((relabel || (moved && anchors_.pressed(frame))) && anchors_.update(frame, false) > 0) listsStale_ = true;
 }
 

@@ -20,11 +20,20 @@ struct Layer {
     Lab lab;
     double spacing, length;
 
-    Layer(const thawMaterialDef& material, float dx, int layers, double slope, int along = 64, int across = 28)
+    // channel: between two walls on which it slides freely, so that it cannot spread.
+    Layer(const thawMaterialDef& material, float dx, int layers, double slope, int along, int across, bool channel)
         : lab(dx, along * across * layers + 64, {0, static_cast<float>(-kG * std::cos(slope)), 0}),
           spacing(static_cast<double>(dx)), length(along * spacing) {
         lab.floor();
         const float w = 0.5f * static_cast<float>(across) * dx;
+        for (float side = -1; channel && side < 2; side += 2) {
+            thawColliderDef d;
+            thawInitColliderDef(&d, thawCollider_plane);
+            d.position = {0, 0, side * w};
+            d.rotation = turnTo({0, 1, 0}, {0, 0, -side});
+            d.slipLength = 1e4f;
+            lab.collider(d);
+        }
         lab.box(lab.material(material), {0, 0, -w},
                 {static_cast<float>(along) * dx, static_cast<float>(layers) * dx, w}, Lab::kLiquid);
         // Only now: a liquid body is born with the pressure that it would have at rest, and on a slope it is not.
@@ -73,8 +82,9 @@ void inclineFilm(Findings& found) {
         thawMaterialDef m = Lab::plain(1000, c.viscosity);
         m.adhesion = c.degrees > 80 ? 0.5f : 0;
         const double slope = c.degrees * kPi / 180;
-        Layer film(m, c.spacing, c.layers, slope);
-        film.lab.step(45);
+        // Until what is left of the stiffness that it is born with is below 1 %.
+        Layer film(m, c.spacing, c.layers, slope, 128, 12, true);
+        film.lab.step(75);
         double speed = 0, theory = 0;
         constexpr int kFrames = 20;
         film.lab.step(kFrames, [&](int) {
@@ -151,7 +161,7 @@ void yieldFilm(Findings& found) {
         m.yieldStress = c.yieldStress, m.flow = c.flow;
         m.adhesion = c.degrees > 80 ? 0.5f : 0;
         const double slope = c.degrees * kPi / 180;
-        Layer film(m, c.spacing, c.layers, slope, 44, 20);
+        Layer film(m, c.spacing, c.layers, slope, 44, 20, false);
         const double theory = static_cast<double>(c.yieldStress) / (1000 * kG * std::sin(slope)),
                      at = 12 * film.spacing;
         film.lab.step(c.viscosity > 5 ? 960 : 720);
