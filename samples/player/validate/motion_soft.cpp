@@ -150,6 +150,8 @@ void drop(Findings& found) {
 
 // Stress that falls as e^(-t / tau) under a load that stays is a strain that grows: in one tau by 5/6 of the elastic
 // one, since only the deviatoric part of the stress falls and E = 2.5 G.
+// Between a layer above the foot and the top: the foot, which is held, cannot spread, and creeps the less for it over
+// about half its width.
 void creep(Findings& found) {
     Lab lab(0.004f);
     lab.floor();
@@ -157,12 +159,20 @@ void creep(Findings& found) {
     m.relaxationTime = 5;
     lab.box(lab.material(m), {-0.016f, 0, -0.016f}, {0.016f, 0.08f, 0.016f}, Lab::kSolid);
     const auto before = pointsOf(lab);
+    const double foot = 0.022, dx = 0.004, H = 0.08;
+    const auto shortens = [&] {
+        const auto now = pointsOf(lab);
+        double down = 0;
+        int n = 0;
+        for (const auto& [id, x] : before)
+            if (std::abs(x[1] - foot) < 0.5 * dx) down += x[1] - now.at(id)[1], ++n;
+        return topSinks(before, now, dx) - down / n;
+    };
     lab.step(300);
-    const double first = topSinks(before, pointsOf(lab), 0.004);
+    const double first = shortens();
     lab.step(600);
-    const double second = topSinks(before, pointsOf(lab), 0.004);
-    const double elastic = 9810 * (0.08 * 0.08 - 0.08 * 0.004) / (2 * 2e5);
-    found.within("sinks in 10 s, m", elastic * 10 / 5 / 1.2, second - first, 0.05);
+    const double elastic = 9810 * ((H - foot) * (H - foot) - 0.25 * dx * dx) / (2 * 2e5);
+    found.within("shortens in 10 s, m", elastic * 10 / 5 / 1.2, shortens() - first, 0.05);
 }
 
 void yields(Findings& found) {
