@@ -37,6 +37,7 @@ struct HeatFixture {
     int raysPerSource = 16;
     uint64_t surfaceVersion = 0;
     const thawRaySystem* rays = nullptr;
+    bool undercools = false;
     HeatStats total;
     int exposed = 0;
 
@@ -141,7 +142,8 @@ struct HeatFixture {
                 cycles,
                 raysPerSource,
                 surfaceVersion,
-                rays};
+                rays,
+                undercools};
     }
     enum Stage { kRadiation = 1, kConduction = 2, kLoss = 4, kAll = 7 };
     void step(double dt, int stages = kAll) {

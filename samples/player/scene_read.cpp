@@ -413,9 +413,13 @@ Material readMaterial(const json& value, const std::string& place, const std::st
     r.real("burnTemperature", d.burnTemperature, 0.0, 10000.0);
     r.real("vapourHeat", d.vapourHeat, 0.0, 1e8);
     r.real("burnRate", d.burnRate, 0.0, 1e6);
+    r.real("undercooling", d.undercooling, 0.0, 1000.0);
+    if (d.undercooling >= d.solidus)
+        r.bad(r.at("undercooling"),
+              "must be below solidus (" + shortest(d.solidus) + "), got " + shortest(d.undercooling));
     if (d.burnTemperature > 0 && d.burnTemperature < d.liquidus)
-        r.bad(r.at("burnTemperature"), "must be 0 or not below liquidus (" + shortest(d.liquidus) + "), got " +
-                                           shortest(d.burnTemperature));
+        r.bad(r.at("burnTemperature"),
+              "must be 0 or not below liquidus (" + shortest(d.liquidus) + "), got " + shortest(d.burnTemperature));
     if (d.setFraction > d.releaseFraction)
         r.bad(r.at("setFraction"), "must not be above releaseFraction (" + shortest(d.releaseFraction) + "), got " +
                                        shortest(d.setFraction));

@@ -129,6 +129,7 @@ std::string materialText(const Material& material, int indent) {
     real("burnTemperature", d.burnTemperature, base.burnTemperature);
     real("vapourHeat", d.vapourHeat, base.vapourHeat);
     real("burnRate", d.burnRate, base.burnRate);
+    real("undercooling", d.undercooling, base.undercooling);
     if (!same(d.color, base.color)) o.add("color", vector(d.color));
     return o.end();
 }

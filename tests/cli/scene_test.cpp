@@ -45,7 +45,7 @@ Scene fullScene() {
     d.emissivity = 0.87f, d.cohesion = 3.3f, d.adhesion = 1.7f;
     d.setFraction = 0.11f, d.releaseFraction = 0.77f, d.color = {0.1f, 0.2f, 0.3f};
     d.youngModulus = 12345, d.solidYieldStress = 123.4f, d.relaxationTime = 5.5f, d.breakStrain = 0.33f;
-    d.burnTemperature = 500, d.vapourHeat = 2.5e5f, d.burnRate = 3.5f;
+    d.burnTemperature = 500, d.vapourHeat = 2.5e5f, d.burnRate = 3.5f, d.undercooling = 12.25f;
     const ShapeType types[] = {ShapeType::box,  ShapeType::sphere, ShapeType::cylinder,
                                ShapeType::cone, ShapeType::torus,  ShapeType::mesh};
     for (ShapeType type : types) {

@@ -92,6 +92,8 @@ TEST_CASE("api: a field of a material out of range is named with its value") {
         {"burnTemperature", [](thawMaterialDef& d) { d.burnTemperature = d.liquidus - 1; }},
         {"vapourHeat", [](thawMaterialDef& d) { d.vapourHeat = -1; }},
         {"burnRate", [](thawMaterialDef& d) { d.burnRate = NAN; }},
+        {"undercooling", [](thawMaterialDef& d) { d.undercooling = -1; }},
+        {"undercooling", [](thawMaterialDef& d) { d.undercooling = d.solidus; }},
         {"color", [](thawMaterialDef& d) { d.color.z = NAN; }},
     };
     for (const Case& c : cases) {

@@ -171,6 +171,10 @@ void checkMaterial(Check& c, const thawMaterialDef* d) {
     c.range("burnTemperature", d->burnTemperature, 0, 1e5);
     c.range("vapourHeat", d->vapourHeat, 0, 1e8);
     c.range("burnRate", d->burnRate, 0, 1e6);
+    c.range("undercooling", d->undercooling, 0, 1000);
+    if (c.ok() && d->undercooling >= d->solidus)
+        c.fail(thawResult_invalidArgument, "undercooling: must be below solidus %g, got %g",
+               static_cast<double>(d->solidus), static_cast<double>(d->undercooling));
     if (c.ok() && d->burnTemperature > 0 && d->burnTemperature < d->liquidus)
         c.fail(thawResult_invalidArgument, "burnTemperature: must be 0 or not below liquidus %g, got %g",
                static_cast<double>(d->liquidus), static_cast<double>(d->burnTemperature));

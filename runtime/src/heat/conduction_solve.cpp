@@ -47,8 +47,9 @@ void Conduction::fillState(const HeatFrame& f) {
             if (i >= p.count) continue;
             const Material& m = f.materials[p.material[k]];
             // Over ambient, so that what matters keeps its digits in float.
-            state[k].x = static_cast<float>(m.kelvin(p.enthalpy[k]) - static_cast<double>(f.ambient));
-            state[k].y = m.conductivity(m.liquidFraction(p.enthalpy[k]));
+            const bool unseeded = p.flags[k] & kUnseeded;
+            state[k].x = static_cast<float>(m.kelvin(p.enthalpy[k], unseeded) - static_cast<double>(f.ambient));
+            state[k].y = m.conductivity(m.liquidFraction(p.enthalpy[k], unseeded));
             const float share = f.neighbors.volumeFraction[k] / (walls ? walls[k].covered : 1.0f);
             const float filled = std::clamp(share, 0.4f, 1.25f);
             state[k].z = 0.5f / filled * (1 + kBare * (1 - filled));
@@ -182,7 +183,8 @@ double Conduction::implicitStep(const HeatFrame& f) {
     }
     const auto capacity = [&](size_t k) { return p.velocity[k].w * leastHeat(f.materials[p.material[k]]); };
     const auto kelvin = [&](size_t k) {
-        return f.materials[p.material[k]].kelvin(p.enthalpy[k]) - static_cast<double>(f.ambient);
+        const Material& m = f.materials[p.material[k]];
+        return m.kelvin(p.enthalpy[k], p.flags[k] & kUnseeded) - static_cast<double>(f.ambient);
     };
     const double low = start.low, high = start.high;
     const auto clipped = [&](size_t k) { return std::clamp(static_cast<double>(solution[k]), low, high); };

@@ -52,7 +52,7 @@ const WallContact* Contact::find(const HeatFrame& f) {
                 const float share = std::clamp((kNone - distance / spacing) / (kNone - kWhole), 0.0f, 1.0f);
                 if (share == 0 || !c.heats()) return;
                 const Material& m = f.materials[p.material[k]];
-                const double conductivity = m.conductivity(m.liquidFraction(p.enthalpy[k]));
+                const double conductivity = m.conductivity(m.liquidFraction(p.enthalpy[k], p.flags[k] & kUnseeded));
                 const double area = static_cast<double>(share) * f.volume[k] / spacing;
                 // The wall's 1 / h is 0 for a perfect contact, the melt's is infinite when it does not conduct.
                 const double g = area / (1 / static_cast<double>(c.conductance) +

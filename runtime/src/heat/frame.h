@@ -43,6 +43,7 @@ struct HeatFrame {
     int raysPerSource;
     uint64_t surfaceVersion;   // changes with the rows, their places and normals; 0: not known
     const thawRaySystem* rays; // the host's, or null
+    bool undercools = false;   // some material does
 };
 
 struct HeatStats {

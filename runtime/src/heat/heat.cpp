@@ -42,26 +42,27 @@ double radiative(const Material& m, double T, double Ta) {
 struct Settled {
     double enthalpy, lost, share; // J/kg, J/kg, and how much of the loss is emission
 };
-Settled settle(const Material& m, double H, const Surroundings& s) {
+Settled settle(const Material& m, double H, const Surroundings& s, bool unseeded) {
     const double Ta = s.temperature;
     const double slowest = std::min(m.def.specificHeatSolid, m.def.specificHeatLiquid);
     const auto slope = [&](double T) { return s.factor * (radiative(m, T, Ta) + s.convection); };
     double result, lost;
-    const double g = slope(std::max(0.0, m.kelvin(H)));
-    if (g < 0.02 * slowest && H >= m.enthalpyFloor()) {
+    const double g = slope(std::max(0.0, m.kelvin(H, unseeded)));
+    const double floor = unseeded ? m.enthalpy(0, true) : m.enthalpyFloor();
+    if (g < 0.02 * slowest && H >= floor) {
         // f is linear on each side of the plateau and on it: three pieces, one root.
         const double solid = g * (m.def.solidus - Ta), liquid = m.latent + g * (m.def.liquidus - Ta);
-        if (H < solid)
+        if (H < solid && !unseeded)
             result = (H - solid) / (1 + g / m.def.specificHeatSolid);
-        else if (H >= liquid)
+        else if (H >= liquid || unseeded)
             result = m.latent + (H - liquid) / (1 + g / m.def.specificHeatLiquid);
         else
             result = m.latent * (H - solid) / (liquid - solid);
         lost = H - result;
     } else {
-        const double floor = m.enthalpyFloor(), ambient = m.enthalpy(static_cast<float>(Ta));
+        const double ambient = m.enthalpy(static_cast<float>(Ta), unseeded);
         const auto f = [&](double h) {
-            const double T = std::max(0.0, m.kelvin(h));
+            const double T = std::max(0.0, m.kelvin(h, unseeded));
             return h - H + slope(T) * (T - Ta);
         };
         double low = std::max(floor, std::min(H, ambient)), high = std::max(floor, std::max(H, ambient));
@@ -75,8 +76,36 @@ Settled settle(const Material& m, double H, const Surroundings& s) {
         result = 0.5 * (low + high);
         lost = stuck ? slope(0) * -Ta : H - result;
     }
-    const double q = radiative(m, std::max(0.0, m.kelvin(result)), Ta);
+    const double q = radiative(m, std::max(0.0, m.kelvin(result, unseeded)), Ta);
     return {result, lost, q + s.convection > 0 ? q / (q + s.convection) : 0};
+}
+
+// Temperatures and liquid fractions where a material undercools. Solid is what was solid before this step, so that it
+// spreads by one support in a step, in any order of the rows.
+void seed(const HeatFrame& f) {
+    Particles& p = f.particles;
+    const auto forRows = [&](auto&& row) {
+        f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
+            for (int i = begin; i < end; ++i) row(i, static_cast<size_t>(i), f.materials[p.material[i]]);
+        });
+    };
+    forRows([&](int i, size_t k, const Material& m) {
+        const bool was = p.flags[k] & kUnseeded;
+        bool stays =
+            m.def.undercooling > 0 && (was || p.enthalpy[k] >= m.latent) && p.enthalpy[k] > m.undercooledEnthalpy();
+        if (stays)
+            forNeighbors(f.neighbors, i, [&](uint32_t j) {
+                stays =
+                    j >= static_cast<uint32_t>(p.count) || p.material[j] != p.material[k] || p.liquidFraction[j] >= 1;
+                return stays;
+            });
+        p.flags[k] = static_cast<uint8_t>((p.flags[k] & ~kUnseeded) | (stays ? kUnseeded : 0));
+    });
+    forRows([&](int, size_t k, const Material& m) {
+        const bool unseeded = p.flags[k] & kUnseeded;
+        p.temperature[k] = std::max(0.0f, static_cast<float>(m.kelvin(p.enthalpy[k], unseeded)));
+        p.liquidFraction[k] = m.liquidFraction(p.enthalpy[k], unseeded);
+    });
 }
 
 } // namespace
@@ -150,7 +179,8 @@ void Heat::loss(const HeatFrame& f) {
             const Material& material = f.materials[p.material[k]];
             const double before = p.enthalpy[k];
             const double fed = m.absorbing ? before + power[k] * f.dt / mass : before;
-            const Settled s = settle(material, fed, {f.ambient, f.convection, f.dt * area / mass});
+            const Settled s =
+                settle(material, fed, {f.ambient, f.convection, f.dt * area / mass}, p.flags[k] & kUnseeded);
             const double after = std::min(s.enthalpy, material.enthalpy(static_cast<float>(kHottest)));
             const double lost = mass * s.lost;
             sum.absorbed += mass * (after - before) + lost;
@@ -182,12 +212,14 @@ void Heat::integrate(const HeatFrame& f) {
             H = std::clamp(H, material.enthalpyFloor(), material.enthalpy(static_cast<float>(kHottest)));
             sum.absorbed += mass * (H - before);
             p.enthalpy[k] = H;
+            if (f.undercools) continue;
             p.temperature[k] = std::max(0.0f, material.temperature(H));
             p.liquidFraction[k] = material.liquidFraction(H);
         }
         m.booking[static_cast<size_t>(block)] = sum;
     });
     m.book(stats_, blocks);
+    if (f.undercools) seed(f);
     m.begun = false;
 }
 

@@ -5,6 +5,8 @@
 #include "base/math.h"
 #include "thaw/thaw.h"
 
+#include <algorithm>
+
 namespace thaw {
 
 // A validated material with what the inner loops need ready. The one thermal state is the specific enthalpy H in J/kg:
@@ -33,6 +35,19 @@ struct Material {
     float liquidFraction(double H) const {
         if (H <= 0) return 0;
         return H >= latent ? 1.0f : static_cast<float>(H / latent);
+    }
+    // The same of what is unseeded (ParticleFlag): below liquidus the liquid's line goes on.
+    double kelvin(double H, bool unseeded) const {
+        return unseeded ? def.liquidus + (H - latent) / def.specificHeatLiquid : kelvin(H);
+    }
+    float liquidFraction(double H, bool unseeded) const { return unseeded ? 1.0f : liquidFraction(H); }
+    double enthalpy(float T, bool unseeded) const {
+        return unseeded ? latent + (static_cast<double>(T) - def.liquidus) * def.specificHeatLiquid : enthalpy(T);
+    }
+    // What is unseeded stays so down to here; and never where a solid has more heat at 0 K.
+    double undercooledEnthalpy() const {
+        const double coldest = static_cast<double>(def.solidus) - def.undercooling;
+        return std::max(latent + (coldest - def.liquidus) * def.specificHeatLiquid, enthalpyFloor());
     }
     double enthalpy(float T) const {
         if (T < def.solidus) return (static_cast<double>(T) - def.solidus) * def.specificHeatSolid;

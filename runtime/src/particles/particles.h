@@ -14,6 +14,7 @@ enum ParticleFlag : uint8_t {
     kSurface = 1 << 1, // exposed to air
     kAsleep = 1 << 2,  // fixed for as long as nothing pulls at its bonds
     kRigid = 1 << 3,   // fixed, but to a rigid piece: moves with it
+    kUnseeded = 1 << 4 // molten through, of a material that undercools, and no solid touches it: stays liquid
 };
 
 // Every per-particle quantity that lives from step to step: one list, used by sort, hash and removal alike.

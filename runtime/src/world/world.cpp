@@ -232,7 +232,7 @@ Needs World::needs() const {
     n.timeScaleZero = def.thermalTimeScale == 0;
     for (const Material& m : materials)
         n.burns |= !n.timeScaleZero && m.def.burnTemperature > 0 && maxTemperature_ > m.def.burnTemperature;
-    n.unequal = maxTemperature_ - minTemperature_ > kEqualTemperature;
+    n.unequal = maxTemperature_ - minTemperature_ > kEqualTemperature || undercooled_ > 0;
     for (const Collider& c : colliders)
         n.unequal |=
             c.heats() && std::max(c.temperature - minTemperature_, maxTemperature_ - c.temperature) > kEqualTemperature;
@@ -471,7 +471,8 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
             work.heatCycles,
             work.raysPerSource,
             surfaceVersion_,
-            &def.rays};
+            &def.rays,
+            std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.def.undercooling > 0; })};
 }
 
 HoldFrame World::holdFrame(float dt, bool relabel) {
@@ -510,7 +511,7 @@ void World::holdAndRelease(float dt) {
 void World::measure() {
     const int blocks = Tasks::blockCount(particles.count, kRowBlock);
     tasks.forBlocks(particles.count, kRowBlock, [&](int begin, int end, int block, int) {
-        Totals t{0, 0, 0, INFINITY, -INFINITY, 0, 0};
+        Totals t{0, 0, 0, INFINITY, -INFINITY, 0, 0, 0};
         for (int i = begin; i < end; ++i) {
             const size_t k = static_cast<size_t>(i);
             const double mass = particles.velocity[k].w;
@@ -520,6 +521,8 @@ void World::measure() {
             t.minTemperature = std::min(t.minTemperature, particles.temperature[k]);
             t.maxTemperature = std::max(t.maxTemperature, particles.temperature[k]);
             t.surface += (particles.flags[k] & kSurface) != 0;
+            t.undercooled +=
+                (particles.flags[k] & kUnseeded) && particles.enthalpy[k] < materials[particles.material[k]].latent;
             t.bad += !isFinite(particles.position[k].xyz()) || !isFinite(particles.velocity[k].xyz()) ||
                      !std::isfinite(particles.enthalpy[k]);
         }
@@ -527,13 +530,14 @@ void World::measure() {
     });
     massNow_ = energyNow_ = liquidMass_ = 0;
     minTemperature_ = INFINITY, maxTemperature_ = -INFINITY;
-    badParticles_ = counters_.surface = 0;
+    badParticles_ = counters_.surface = undercooled_ = 0;
     for (int b = 0; b < blocks; ++b) {
         const Totals& t = blockTotals_[static_cast<size_t>(b)];
         massNow_ += t.mass, energyNow_ += t.energy, liquidMass_ += t.liquid;
         minTemperature_ = std::min(minTemperature_, t.minTemperature);
         maxTemperature_ = std::max(maxTemperature_, t.maxTemperature);
         counters_.surface += t.surface, badParticles_ += t.bad;
+        undercooled_ += t.undercooled;
     }
     if (particles.count == 0) minTemperature_ = maxTemperature_ = def.ambientTemperature;
     counters_.moving = 0;
@@ -658,6 +662,7 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
         particles.body[k] = static_cast<uint16_t>(slot);
         particles.material[k] = material;
         particles.flags[k] = free ? 0 : soft ? kFixed | kAsleep : kFixed;
+        if (m.def.undercooling > 0 && H >= m.latent) particles.flags[k] |= kUnseeded;
         if (!free && !soft && !d.anchored) loose.push_back(static_cast<uint32_t>(k));
         massAdded_ += mass;
         energyAdded_ += static_cast<double>(mass) * H;

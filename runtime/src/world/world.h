@@ -81,7 +81,7 @@ private:
     struct Totals { // sums over a block of particles
         double mass, energy, liquid;
         float minTemperature, maxTemperature;
-        int surface, bad;
+        int surface, bad, undercooled;
     };
     Needs needs() const;
     bool heatDue(const thawWork& work) const;
@@ -140,6 +140,7 @@ private:
     double absorbed_ = 0, contact_ = 0, emitted_ = 0, convected_ = 0;
     double massNow_ = 0, energyNow_ = 0, liquidMass_ = 0;
     float minTemperature_ = 0, maxTemperature_ = 0;
+    int undercooled_ = 0; // particles that solid would set, even where all has one temperature
     int badParticles_ = 0;
     int rigidRows_ = 0; // of pieces that are awake
     thawCounters counters_{};

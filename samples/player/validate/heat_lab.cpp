@@ -34,8 +34,11 @@ Bar::Bar(float spacing, int width, int maxParticles, float timeScale, double amb
 }
 
 void Bar::section(const thawMaterialDef& material, int layers, double temperature) {
+    section(lab.material(material), layers, temperature);
+}
+
+void Bar::section(thawMaterialId id, int layers, double temperature) {
     const float side = static_cast<float>(width_) * spacing_;
-    const thawMaterialId id = lab.material(material);
     // Bodies of a few layers each: what is in contact conducts, whatever it is part of.
     constexpr int kMost = 24;
     while (layers > 0) {

@@ -25,6 +25,7 @@ public:
     Bar(float spacing, int width, int maxParticles, float timeScale, double ambient);
     // Appends `layers` layers.
     void section(const thawMaterialDef& material, int layers, double temperature);
+    void section(thawMaterialId material, int layers, double temperature);
     // A wall at this temperature where the bar begins, or where it ends now; perfect contact.
     void holdBegin(double temperature);
     void holdEnd(double temperature);

@@ -28,7 +28,7 @@ std::vector<Suite> suites() {
               pieceCases()}},
             {"heat",
              "conduction, contact, phase change, radiation and loss",
-             {conductionCases(), stefanCases(), radiationCases(), surfaceCases()}}};
+             {conductionCases(), stefanCases(), radiationCases(), surfaceCases(), undercoolingCases()}}};
 }
 
 struct Options {

@@ -52,5 +52,6 @@ CaseList conductionCases();
 CaseList radiationCases();
 CaseList stefanCases();
 CaseList surfaceCases();
+CaseList undercoolingCases();
 
 } // namespace thaw::player
