@@ -55,9 +55,9 @@ public:
     BondResult update(const BondFrame& f);
     // Bonds everything of these soft materials that is solid and has no bond yet, wherever it is and however it moves.
     BondResult bondAll(const BondFrame& f);
-    // How many sub-steps of a step of dt bodies that fall on each other ask for, at most `limit`; of the first 64
-    // bodies.
-    int subStepsWanted(const Particles& p, float dt, float spacing, int limit) const;
+    // How many sub-steps of a step of dt bodies that fall on each other, or rigid pieces and such bodies, ask for, at
+    // most `limit`; of the first 64 bodies.
+    int subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spacing, int limit) const;
     // Springs of the movers as pairs of the neighbour lists: stiffness and rest per entry.
     void lay(const BondFrame& f);
     // Plastic flow, creep and rupture, at the positions of now.
@@ -113,6 +113,7 @@ private:
     bool findTouch(const BondFrame& f, uint32_t row) const;
     void gather(const BondFrame& f, int begin, int end, WallFinder& walls) const;
     Vec3 imbalance(const BondFrame& f, uint32_t row) const;
+    Box hittingPieces(const BondFrame& f) const;
     void settle(const BondFrame& f, BondResult& result);
     void weld(const BondFrame& f);
     // Whether a row that is held has a mover in its support: movers come first in its list.

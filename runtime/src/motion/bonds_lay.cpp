@@ -12,9 +12,19 @@
 namespace thaw {
 namespace {
 
-constexpr float kLongest = 0.9f; // of the support: what is farther apart has lost its bond
-constexpr float kFading = 0.15f; // of a bond's weight goes per step when it breaks
-constexpr float kWeld = 1.3f;    // spacings: what has flowed bonds with its body again
+constexpr float kLongest = 0.9f;                   // of the support: what is farther apart has lost its bond
+constexpr float kFading = 0.15f;                   // of a bond's weight goes per step when it breaks
+constexpr float kMeets = 0.95f, kNextLayer = 1.4f; // of the contact's length
+constexpr float kWeld = 1.3f;                      // spacings: what has flowed bonds with its body again
+
+// Whether what is at d and goes by `way` comes nearer than `near`. A piece goes with the gravity of the step: of all
+// that comes closer to one of its rows, those that it passes at an angle would be drawn to it, and a cube at rest sinks
+// in.
+bool meets(Vec3 d, Vec3 way, float near) {
+    const float along = -dot(d, way), square = dot(way, way);
+    const float share = square > 0 ? std::clamp(along / square, 0.0f, 1.0f) : 0.0f;
+    return length(d + share * way) < kMeets * near;
+}
 
 } // namespace
 
@@ -65,9 +75,13 @@ void Bonds::lay(const BondFrame& f) {
                     const Vec3 d = x.xyz() - p.position[j].xyz();
                     const float spacing = 0.5f * (x.w + p.position[j].w) / kSupport, near = kContact * spacing;
                     const float distance = length(d);
-                    const float closing = dot(d, p.velocity[i].xyz() - p.velocity[j].xyz()) * f.dt;
+                    const Vec3 apart = p.velocity[i].xyz() - p.velocity[j].xyz();
+                    const float closing = dot(d, apart) * f.dt;
                     // Of the same body only what is near already: it bends and turns without meeting itself.
                     if (!(distance < near) && (p.body[i] == p.body[j] || !(distance * (distance - near) < -closing)))
+                        continue;
+                    if (p.piece[j] && !(distance < near) &&
+                        (distance > kNextLayer * near || !meets(d, f.dt * apart, near)))
                         continue;
                     Elastic other;
                     if (p.bondSlot[j]) other = elastic(f.materials, p, j);

@@ -20,12 +20,13 @@ constexpr float kTouch = 1.25f, kDrift = 0.1f;
 constexpr float kCalm = 3e-4f;
 constexpr uint8_t kCalmSteps = 30;
 constexpr float kRest = 0.02f, kUnrest = 0.06f;
+constexpr float kHits = 1.5f;      // gravity's velocity of a step: what comes faster wakes what it hits
 constexpr float kLeastGravity = 1; // m/s^2, for that measure where there is none
 // What sleeps among its like is looked at every so many steps while it warms.
 constexpr uint32_t kLookInterval = 4;
 constexpr float kFillRate = 0.1f; // of the way to what its bonds make up, per step: others take over bit by bit
 
-constexpr int kApproachMost = 4; // sub-steps
+constexpr int kApproachMost = 4, kPieceApproachMost = 12; // sub-steps
 constexpr int kRowBlock = 256;
 
 } // namespace
@@ -133,6 +134,23 @@ Vec3 Bonds::imbalance(const BondFrame& f, uint32_t row) const {
     return force;
 }
 
+// Where pieces fly that wake what they hit: faster than what gravity makes of rest in a step. What rolls over onto it
+// or settles finds it as it is, as on something rigid.
+Box Bonds::hittingPieces(const BondFrame& f) const {
+    const Particles& p = f.particles;
+    const float least = kHits * std::max(length(f.gravity), kLeastGravity) * f.dt;
+    Box box;
+    float support = 0;
+    for (size_t i = static_cast<size_t>(p.moverCount); i < static_cast<size_t>(p.count); ++i) {
+        const Vec3 v = p.velocity[i].xyz();
+        if (!p.piece[i] || !(dot(v, v) > least * least)) continue;
+        box.grow(p.position[i].xyz()), support = std::max(support, p.position[i].w);
+    }
+    if (box.empty()) return box;
+    const Vec3 margin{support, support, support};
+    return {box.lower - margin, box.upper + margin};
+}
+
 // Sleep and waking of rows that have bonds.
 void Bonds::settle(const BondFrame& f, BondResult& result) {
     Particles& p = f.particles;
@@ -143,6 +161,11 @@ void Bonds::settle(const BondFrame& f, BondResult& result) {
             if (const uint32_t slot = p.bondSlot[static_cast<size_t>(r)])
                 fill_[slot] += kFillRate * (fillGoal_[slot] - fill_[slot]);
     });
+    const Box pieces = hittingPieces(f);
+    const auto nearPieces = [&](Vec3 x) {
+        return x.x > pieces.lower.x && x.x < pieces.upper.x && x.y > pieces.lower.y && x.y < pieces.upper.y &&
+               x.z > pieces.lower.z && x.z < pieces.upper.z;
+    };
     f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
         WallFinder walls;
         bool gathered = false;
@@ -174,6 +197,7 @@ void Bonds::settle(const BondFrame& f, BondResult& result) {
                     (slot + steps_) % kLookInterval == 0 &&
                     (p.liquidFraction[i] > 0 || std::abs(fill_[slot] - fillGoal_[slot]) > 1e-3f * fill_[slot]);
                 if ((due || beside(f, i)) && unbalanced(i) > kUnrest) state_[i] = kWakes;
+                if (nearPieces(p.position[i].xyz())) state_[i] = kWakes;
             } else if (!(p.flags[i] & kFixed)) {
                 const float spacing = p.position[i].w / kSupport;
                 if (calm_[slot] == kNewborn) calm_[slot] = 1;
@@ -206,35 +230,46 @@ void Bonds::settle(const BondFrame& f, BondResult& result) {
 }
 
 // Sub-steps so that bodies that fall on each other come nearer by a spacing in each: by their boxes and mean
-// velocities.
-int Bonds::subStepsWanted(const Particles& p, float dt, float spacing, int limit) const {
+// velocities. What a rigid piece falls in a sub-step from rest counts too: its springs hold it against the gravity of
+// now, which the lists do not know of.
+int Bonds::subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spacing, int limit) const {
     if (live_ == 0 || p.moverCount == 0) return 1;
-    struct Crowd { // what has bonds of a body
+    struct Crowd { // what has bonds of a body, or is in pieces
         Box box;
         Vec3 velocity; // summed
         float count = 0;
+        bool soft = false, moves = false;
     };
     constexpr size_t kBodies = 64;
     Crowd crowd[kBodies];
     for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) {
-        if (!p.bondSlot[i] || p.body[i] >= kBodies) continue;
+        if ((!p.bondSlot[i] && !p.piece[i]) || p.body[i] >= kBodies) continue;
         Crowd& c = crowd[p.body[i]];
-        c.box.grow(p.position[i].xyz()), c.velocity += p.velocity[i].xyz(), c.count += 1;
+        const Vec3 v = p.velocity[i].xyz();
+        c.box.grow(p.position[i].xyz()), c.velocity += v, c.count += 1;
+        c.soft |= p.bondSlot[i] != 0;
+        c.moves |= p.piece[i] ? dot(v, v) > 0 : i < static_cast<size_t>(p.moverCount); // pieces asleep have none at all
     }
-    float most = 0;
+    int wanted = 1;
     for (size_t a = 0; a < kBodies; ++a)
         for (size_t b = 0; b < a; ++b) {
             const Crowd &x = crowd[a], &y = crowd[b];
-            if (x.count == 0 || y.count == 0) continue;
+            if (x.count == 0 || y.count == 0 || !(x.soft || y.soft)) continue;
             const Vec3 way = dt * ((1 / x.count) * x.velocity - (1 / y.count) * y.velocity);
             const float near = spacing + length(way);
             if (x.box.lower.x - y.box.upper.x > near || y.box.lower.x - x.box.upper.x > near ||
                 x.box.lower.y - y.box.upper.y > near || y.box.lower.y - x.box.upper.y > near ||
                 x.box.lower.z - y.box.upper.z > near || y.box.lower.z - x.box.upper.z > near)
                 continue;
-            most = std::max(most, length(way) / spacing);
+            const bool piece = !x.soft || !y.soft;
+            const float fall = piece && x.moves && y.moves ? dt * dt * length(gravity) / spacing : 0;
+            const float approach = length(way) / (spacing * kApproachPerStep);
+            const int most = piece ? kPieceApproachMost : kApproachMost;
+            int n = 1;
+            while (n < most && approach / static_cast<float>(n) + fall / static_cast<float>(n * n) > 1) ++n;
+            wanted = std::max(wanted, n);
         }
-    return std::clamp(static_cast<int>(std::ceil(most / kApproachPerStep)), 1, std::min(limit, kApproachMost));
+    return std::min(wanted, limit);
 }
 
 BondResult Bonds::update(const BondFrame& f) {

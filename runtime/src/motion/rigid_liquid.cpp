@@ -3,6 +3,7 @@
 #include "motion/rigid_liquid.h"
 
 #include "base/kernel.h"
+#include "motion/bond_pass.h"
 #include "motion/rigid_numbers.h"
 
 #include <algorithm>
@@ -13,6 +14,23 @@ namespace {
 
 void hand(RigidPiece& b, Double3 impulse, Double3 at) {
     b.linear += impulse, b.angular += cross(at - b.center, impulse);
+}
+
+// The spring of an elastic mover against a row of a piece, as pairSprings has it. impulse: over x.
+bool addSpring(const MotionFrame& f, uint32_t mover, uint32_t row, float r2, float& coefficient, float& impulse) {
+    const uint32_t g = mover >> 3;
+    if (!f.bonds || !f.bonds->groupOn[g]) return false;
+    const size_t first = f.neighbors.first[g] + (mover & 7);
+    for (uint32_t k = f.neighbors.width[g]; k-- > 0;) {
+        const size_t entry = first + 8 * static_cast<size_t>(k);
+        if (f.neighbors.entries[entry] >> 4 != row) continue;
+        const float stiff = f.bonds->stiffness[entry], rest = f.bonds->rest[entry];
+        const float r = std::sqrt(std::max(r2, 1e-20f));
+        coefficient += f.dt * f.dt * stiff / (r * r);
+        impulse += f.dt * stiff * std::min(rest - r, kMostPress * rest) / r;
+        return stiff > 0;
+    }
+    return false;
 }
 
 } // namespace
@@ -30,6 +48,7 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback
         RigidPiece& b = pieces[slot];
         if (!b.alive) continue;
         const size_t firstPair = pairs_.size();
+        bool springs = false;
         const uint32_t* rows = rigid_->rowsOf(b);
         for (uint32_t k = 0; k < b.rows; ++k) {
             const uint32_t j = rows[k], g = j >> 3, lane = j & 7;
@@ -45,8 +64,9 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback
                 const float gradient = f.volume[j] * f.neighbors.gradient[at];
                 const float r2 = dot(x, x), h = 0.5f * (xi.w + xj.w);
                 const float push = -f.dt * gradient;
-                pairs_.push({i, j, slot, x, -weight * ti.x * gradient / (0.01f * h * h + r2), push});
-                float impulse = push * (ti.w + tj.w);
+                float coefficient = -weight * ti.x * gradient / (0.01f * h * h + r2), impulse = push * (ti.w + tj.w);
+                if (p.bondSlot[i]) springs |= addSpring(f, i, j, r2, coefficient, impulse);
+                pairs_.push({i, j, slot, x, coefficient, push});
                 const float r = std::sqrt(r2), d = h / kSupport;
                 if (d < r && r < h) {
                     constexpr float kPeak = 4 / ((1 - 1 / kSupport) * (1 - 1 / kSupport));
@@ -57,7 +77,7 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback
         }
         if (pairs_.size() == firstPair || b.asleep) continue;
         Unknown u{};
-        u.slot = slot, u.firstPair = firstPair, u.endPair = pairs_.size();
+        u.slot = slot, u.firstPair = firstPair, u.endPair = pairs_.size(), u.springs = springs;
         unknowns_.push(u);
     }
     if (pairs_.empty()) return;
@@ -164,7 +184,11 @@ void RigidLiquid::prime(const MotionFrame& f) {
     for (Unknown& u : unknowns_) {
         RigidPiece& b = rigid_->pieces()[u.slot];
         u.before = {b.velocity, b.spin};
-        b.velocity += b.drag, b.spin += b.dragSpin;
+        // As elastic solids do beside it: the springs of now alone are far from what they come to within the step.
+        if (u.springs)
+            b.velocity = b.startVelocity, b.spin = b.startSpin;
+        else
+            b.velocity += b.drag, b.spin += b.dragSpin;
         spread(f, u, {b.velocity, b.spin}, f.particles.velocity.data());
     }
 }

@@ -31,6 +31,7 @@ public:
     };
     struct Unknown {
         uint32_t slot;
+        bool springs; // of elastic solids push it
         bool visited; // by the search of what floats
         size_t firstPair, endPair;
         Six before, residual, direction, image, z;

@@ -310,7 +310,7 @@ int World::subStepsWanted(float dt) const {
     const Vec3 gravity{def.gravity.x, def.gravity.y, def.gravity.z};
     const int wanted = Motion::subStepsWanted(particles, dt, gravity, def.particleSpacing, kMost, colliders.data(),
                                               static_cast<int>(colliders.size()));
-    return std::max(wanted, bonds_.subStepsWanted(particles, dt, def.particleSpacing, kMost));
+    return std::max(wanted, bonds_.subStepsWanted(particles, dt, gravity, def.particleSpacing, kMost));
 }
 
 thawPlan World::previewPlan(const thawBudget& budget) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 
 namespace thaw::player {
@@ -290,6 +291,77 @@ void stack(Findings& found) {
     found.atMost("moving particles at the end", 0, lab.counters().moving);
 }
 
+// A rigid cube falls 50 mm on an elastic block that stands free, awake (made a moment ago) or asleep.
+struct Landing {
+    float spacing;
+    bool asleep;
+};
+void landOnSoft(Findings& found, std::initializer_list<Landing> variants) {
+    for (const auto& [spacing, asleep] : variants) {
+        Lab lab(spacing);
+        lab.floor();
+        lab.box(lab.material(soft(1e5f)), {-0.024f, 0, -0.024f}, {0.024f, 0.032f, 0.024f}, Lab::kSolid,
+                [](thawBodyDef& d) { d.anchored = false; });
+        lab.step(asleep ? 120 : 1);
+        if (asleep) found.atMost("moving particles before it falls", 0, lab.counters().moving);
+        const thawBodyId cube =
+            lab.box(lab.material(Lab::plain(900, 1)), {-0.012f, 0.082f, -0.012f}, {0.012f, 0.106f, 0.012f}, Lab::kSolid,
+                    [](thawBodyDef& d) { d.anchored = false; });
+        const auto middleOf = [&] {
+            const thawParticleView v = lab.particles();
+            double y = 0;
+            int n = 0;
+            for (int i = 0; i < v.count; ++i)
+                if (v.bodies[i] == cube.index1 - 1) y += static_cast<double>(v.positions[4 * i + 1]), ++n;
+            return y / n;
+        };
+        const int pieceRows = lab.counters().moving;
+        double lowest = 1, most = 0;
+        int woken = 0;
+        lab.step(300, [&](int) {
+            lowest = std::min(lowest, middleOf()), most = std::max(most, fastest(lab));
+            woken = std::max(woken, lab.counters().moving - pieceRows);
+        });
+        const auto middle = pointsOf(lab);
+        lab.step(300);
+        const double inSpacings = static_cast<double>(spacing);
+        if (asleep) found.atLeast("particles of the block that it wakes", 30, woken);
+        found.atMost("fastest, of free fall", 1.2, most / std::sqrt(2 * 9.81 * 0.05));
+        found.atLeast("deepest, spacings", -1, (lowest - 0.044) / inSpacings);
+        found.within("centre of the cube at rest, m", 0.044, middleOf(), 0.02);
+        found.atMost("goes from 5 to 10 s, spacings", 0.05, farthest(middle, pointsOf(lab)) / inSpacings);
+        found.atMost("moving particles at the end", 0, lab.counters().moving);
+    }
+}
+
+void underPiece(Findings& found) { landOnSoft(found, {{0.004f, false}, {0.004f, true}, {0.002f, true}}); }
+void onAwake(Findings& found) { landOnSoft(found, {{0.002f, false}}); }
+
+// A rigid cube flies at an elastic block, both free.
+void hitByPiece(Findings& found) {
+    for (const float spacing : {0.004f, 0.002f}) {
+        Lab lab(spacing, 20000, {0, 0, 0});
+        const thawBodyId block = lab.box(lab.material(soft(1e5f)), {-0.024f, 0, -0.024f}, {0.024f, 0.032f, 0.024f},
+                                         Lab::kSolid, [](thawBodyDef& d) { d.anchored = false; });
+        lab.box(lab.material(Lab::plain(900, 1)), {-0.012f, 0.042f, -0.012f}, {0.012f, 0.066f, 0.012f}, Lab::kSolid,
+                [](thawBodyDef& d) {
+                    d.anchored = false, d.velocity = {0, -0.5f, 0};
+                });
+        const double before = momentumOf(lab.particles()).p[1];
+        double most = 0;
+        lab.step(20, [&](int) { most = std::max(most, fastest(lab)); });
+        found.within("momentum after, kg m/s", before, momentumOf(lab.particles()).p[1], 0.05);
+        found.atMost("fastest, of before", 1.2, most / 0.5);
+        const thawParticleView v = lab.particles();
+        double taken = 0;
+        for (int i = 0; i < v.count; ++i)
+            if (v.bodies[i] == block.index1 - 1)
+                taken += static_cast<double>(v.velocities[4 * i + 1]) * static_cast<double>(v.velocities[4 * i + 3]);
+        // Stuck together both would go at m / (m + M): the block takes 0.86 of it then, more where it is thrown back.
+        found.atLeast("share that the block takes", 0.5, taken / before);
+    }
+}
+
 } // namespace
 
 CaseList softCases() {
@@ -301,6 +373,9 @@ CaseList softCases() {
             {"soft-yield", "elastic cube of 32 mm: stands below its yield stress, flows above", yields},
             {"soft-refreeze", "puddle of 34 ml sets, as a rigid and as an elastic solid", refreeze},
             {"soft-melting", "elastic block melts at one side for 20 s, 2 and 4 mm", melting},
+            {"soft-under-piece", "rigid cube of 24 mm falls 50 mm on an elastic block, 4 and 2 mm", underPiece},
+            {"soft-hit-by-piece", "rigid cube of 24 mm flies at an elastic block, both free: momentum", hitByPiece},
+            {"piece-on-awake", "the same cube on a block of 2 mm that is awake", onAwake},
             {"soft-stack", "elastic block falls on another and rests", stack}};
 }
 
