@@ -167,7 +167,10 @@ void addMelt(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("melt", "Melt a mesh of yours (OBJ, PLY, STL, glTF, GLB) under a lamp");
     auto o = std::make_shared<Options>();
     command->add_option("mesh", o->mesh, "Mesh file; closed, or nearly so")->required();
-    command->add_option("--material", o->material, "wax, chocolate, butter, ice, icecream, darkchocolate, aluminium, iron or lava")->capture_default_str();
+    command
+        ->add_option("--material", o->material,
+                     "wax, chocolate, butter, ice, icecream, darkchocolate, aluminium, iron or lava")
+        ->capture_default_str();
     command->add_option("--size", o->size, "Largest dimension of the body, m")->capture_default_str();
     command->add_option("--up", o->up, "Axis of the file that points up: y or z")->capture_default_str();
     command->add_option("--power", o->power,

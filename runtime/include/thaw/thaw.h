@@ -188,7 +188,7 @@ THAW_API thawResult thawWorld_SetThermalTimeScale(thawWorld* world, float scale)
 /* ---- materials -------------------------------------------------------------------------------------------------- */
 
 typedef enum thawMaterialPreset {
-    thawMaterial_wax = 0, /* paraffin */
+    thawMaterial_wax = 0,   /* paraffin */
     thawMaterial_chocolate, /* milk */
     thawMaterial_butter,
     thawMaterial_ice,
@@ -236,8 +236,9 @@ typedef struct thawMaterialDef {
                               default 0 */
     float burnRate; /* 1/s of heat time, of what may go; range 0..1e6, default 1: a share 1 - e^(-burnRate t) is gone */
     /* Undercooling: what has molten through stays liquid below solidus (its liquid fraction stays 1) until it is this
-       much colder, or until a neighbour of the same material that is not all liquid touches it, which is looked for once
-       in each step of heat. Then it goes, its enthalpy kept, to where that is between solidus and liquidus: it warms. */
+       much colder, or until a neighbour of the same material that is not all liquid touches it, which is looked for
+       once in each step of heat. Then it goes, its enthalpy kept, to where that is between solidus and liquidus: it
+       warms. */
     float undercooling; /* K, range 0..1000 and below solidus; 0, the default: sets at liquidus to solidus */
 } thawMaterialDef;
 
@@ -549,8 +550,8 @@ typedef struct thawLedger {
     double convected;                       /* J to the air */
     double energyNow;                       /* J, sum of m H */
     double massError;                       /* |massNow - added + removed + burnt| / added */
-    double energyError; /* |energyNow - (added - removed - burnt + absorbed + contact - emitted - convected)| / largest sum
-                              moved */
+    double energyError; /* |energyNow - (added - removed - burnt + absorbed + contact - emitted - convected)| / largest
+                           sum moved */
 } thawLedger;
 THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);
 

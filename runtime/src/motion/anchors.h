@@ -22,8 +22,8 @@ struct AnchorFrame {
 
 // Which collider each held piece hangs on, of those that are told apart (carry.h); pieces on all others hang on the
 // world, which stands still. A piece is what hangs together through held particles of one anchor. It keeps its anchor
-// as long as it touches it; a piece that something comes into which does not move with it comes loose as a whole: it goes
-// on as a rigid piece, or as loose particles where it is small or soft, and is pushed.
+// as long as it touches it; a piece that something comes into which does not move with it comes loose as a whole: it
+// goes on as a rigid piece, or as loose particles where it is small or soft, and is pushed.
 class Anchors {
 public:
     explicit Anchors(Allocator& allocator)

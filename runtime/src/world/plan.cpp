@@ -40,7 +40,8 @@ thawPlan makePlan(const Needs& n, const thawWork& work) {
     for (thawStage s : {thawStage_forces, thawStage_viscosity, thawStage_pressure})
         set(s, n.movers > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
     set(thawStage_collision, n.movers + n.rigid > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
-    set(thawStage_stats, any && (heated || moved || (n.burns && n.heatDue)), any ? thawReason_nothingChanged : thawReason_noParticles);
+    set(thawStage_stats, any && (heated || moved || (n.burns && n.heatDue)),
+        any ? thawReason_nothingChanged : thawReason_noParticles);
     return plan;
 }
 
