@@ -186,4 +186,48 @@ struct HeatFixture {
     size_t size() const { return static_cast<size_t>(particles.count); }
 };
 
+inline uint32_t scramble(uint32_t& state) {
+    state = state * 1664525u + 1013904223u;
+    return state >> 8;
+}
+inline float uniform(uint32_t& state) { return static_cast<float>(scramble(state)) * (1.0f / 16777216.0f); }
+inline Vec3 inCube(uint32_t& state) { // [-1, 1]^3
+    const float x = uniform(state), y = uniform(state), z = uniform(state);
+    return 2 * Vec3{x, y, z} - Vec3{1, 1, 1};
+}
+
+// J that each row took up in one step of radiation alone, by id.
+inline std::vector<double> absorbed(HeatFixture& f, double dt = 1) {
+    std::vector<double> before = f.enthalpies();
+    f.step(dt, HeatFixture::kRadiation);
+    std::vector<double> after = f.enthalpies(), e(after.size());
+    for (size_t i = 0; i < f.size(); ++i) {
+        const size_t id = f.particles.id[i];
+        e[id] = (after[id] - before[id]) * f.particles.velocity[i].w;
+    }
+    return e;
+}
+
+inline double sum(const std::vector<double>& v) {
+    double s = 0;
+    for (double x : v) s += x;
+    return s;
+}
+
+inline Collider box(Vec3 center, Vec3 half, Quat rotation = {}) {
+    Collider c;
+    c.type = thawCollider_box, c.alive = true, c.transform = {center, rotation, 1}, c.size = half;
+    return c;
+}
+
+// Series of a slab from 1 whose faces are held at 0: x in thicknesses, fo the Fourier number.
+inline double slab(double x, double fo) {
+    double u = 0;
+    for (int n = 0; n < 60; ++n) {
+        const double k = (2 * n + 1) * 3.14159265358979323846;
+        u += 4 / k * std::sin(k * x) * std::exp(-k * k * fo);
+    }
+    return u;
+}
+
 } // namespace thaw

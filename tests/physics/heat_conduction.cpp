@@ -29,15 +29,6 @@ struct Bar : HeatFixture {
     }
 };
 
-double slab(double x, double fo) {
-    double u = 0;
-    for (int n = 0; n < 60; ++n) {
-        const double k = (2 * n + 1) * kPi;
-        u += 4 / k * std::sin(k * x) * std::exp(-k * k * fo);
-    }
-    return u;
-}
-
 } // namespace
 
 TEST_CASE("heat: slab with both faces held follows the series") {

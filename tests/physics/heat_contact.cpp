@@ -40,15 +40,6 @@ struct Pressed : HeatFixture {
     double at(size_t row) const { return static_cast<double>(particles.position[row].x) - 0.005; }
 };
 
-double slab(double x, double fo) {
-    double u = 0;
-    for (int n = 0; n < 60; ++n) {
-        const double k = (2 * n + 1) * kPi;
-        u += 4 / k * std::sin(k * x) * std::exp(-k * k * fo);
-    }
-    return u;
-}
-
 } // namespace
 
 TEST_CASE("heat: slab pressed between two plates follows the series") {

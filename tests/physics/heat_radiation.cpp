@@ -22,45 +22,11 @@ float room(Vec3) { return 293.15f; }
 
 HeatSource lamp(Vec3 position, float power, float radius = 0.001f) { return {position, power, radius, true, true}; }
 
-// J that each row took up in one step of radiation alone, by id.
-std::vector<double> absorbed(HeatFixture& f, double dt = 1) {
-    std::vector<double> before = f.enthalpies();
-    f.step(dt, HeatFixture::kRadiation);
-    std::vector<double> after = f.enthalpies(), e(after.size());
-    for (size_t i = 0; i < f.size(); ++i) {
-        const size_t id = f.particles.id[i];
-        e[id] = (after[id] - before[id]) * f.particles.velocity[i].w;
-    }
-    return e;
-}
-
-double sum(const std::vector<double>& v) {
-    double s = 0;
-    for (double x : v) s += x;
-    return s;
-}
-
-uint32_t scramble(uint32_t& state) {
-    state = state * 1664525u + 1013904223u;
-    return state >> 8;
-}
-float uniform(uint32_t& state) { return static_cast<float>(scramble(state)) * (1.0f / 16777216.0f); }
-Vec3 inCube(uint32_t& state) { // [-1, 1]^3
-    const float x = uniform(state), y = uniform(state), z = uniform(state);
-    return 2 * Vec3{x, y, z} - Vec3{1, 1, 1};
-}
-
 Ray between(Vec3 from, Vec3 to) {
     Ray r;
     r.surface = r.raised = from, r.distance = length(to - from), r.direction = normalizeOr(to - from, {0, 1, 0});
     r.skip = 0;
     return r;
-}
-
-Collider box(Vec3 center, Vec3 half, Quat rotation = {}) {
-    Collider c;
-    c.type = thawCollider_box, c.alive = true, c.transform = {center, rotation, 1}, c.size = half;
-    return c;
 }
 
 } // namespace

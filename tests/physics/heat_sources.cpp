@@ -29,16 +29,6 @@ HeatSource warm(thawHeatSourceType type, Vec3 at, float temperature, float radiu
     return s;
 }
 
-uint32_t scramble(uint32_t& state) {
-    state = state * 1664525u + 1013904223u;
-    return state >> 8;
-}
-float uniform(uint32_t& state) { return static_cast<float>(scramble(state)) * (1.0f / 16777216.0f); }
-Vec3 inCube(uint32_t& state) { // [-1, 1]^3
-    const float x = uniform(state), y = uniform(state), z = uniform(state);
-    return 2 * Vec3{x, y, z} - Vec3{1, 1, 1};
-}
-
 // Does a ray meet the shining side?
 bool meets(const HeatSource& s, Vec3 o, Vec3 d) {
     if (s.type == thawHeatSource_sphere) {
@@ -70,28 +60,6 @@ double bruteForce(const HeatSource& s, Vec3 o, Vec3 n) {
             ++all, hit += meets(s, o, x * u + y * v + std::sqrt(1 - r2) * n);
         }
     return static_cast<double>(hit) / all;
-}
-
-std::vector<double> absorbed(HeatFixture& f, double dt = 1) {
-    const std::vector<double> before = f.enthalpies();
-    f.step(dt, HeatFixture::kRadiation);
-    const std::vector<double> after = f.enthalpies();
-    std::vector<double> e(after.size());
-    for (size_t i = 0; i < f.size(); ++i) {
-        const size_t id = f.particles.id[i];
-        e[id] = (after[id] - before[id]) * f.particles.velocity[i].w;
-    }
-    return e;
-}
-double sum(const std::vector<double>& v) {
-    double s = 0;
-    for (double x : v) s += x;
-    return s;
-}
-Collider box(Vec3 center, Vec3 half, Quat rotation = {}) {
-    Collider c;
-    c.type = thawCollider_box, c.alive = true, c.transform = {center, rotation, 1}, c.size = half;
-    return c;
 }
 
 } // namespace

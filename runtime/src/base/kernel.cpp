@@ -62,11 +62,11 @@ double planeShare(double q) {
 }
 double planeSlope(double q) { return 2 * kPi * q * shape(std::fabs(q)); }
 
-// Everything behind the plane z = q counts, q in units of h. First the integral over the disc that a plane cuts out of
-// the support, then the sum over the planes from the far end.
 // Nearer than this, in spacings, the mirrored layer pushes no harder; it would attract from a quarter on.
 constexpr double kStraightBelow = 0.3;
 
+// Everything behind the plane z = q counts, q in units of h. First the integral over the disc that a plane cuts out of
+// the support, then the sum over the planes from the far end.
 struct WallTables : WallTable {
     WallTables() {
         static_assert(kSize % 2 == 0);

@@ -4,6 +4,7 @@
 
 #include "base/kernel.h"
 #include "motion/bond_pass.h"
+#include "motion/pairs.h"
 #include "motion/rigid_numbers.h"
 
 #include <algorithm>
@@ -69,8 +70,7 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback
                 pairs_.push({i, j, slot, x, coefficient, push});
                 const float r = std::sqrt(r2), d = h / kSupport;
                 if (d < r && r < h) {
-                    constexpr float kPeak = 4 / ((1 - 1 / kSupport) * (1 - 1 / kSupport));
-                    impulse -= f.dt * 0.5f * kPeak * (r - d) * (h - r) * ti.z * (ti.y + tj.y) / (h * h * r);
+                    impulse -= f.dt * 0.5f * kCohesionPeak * (r - d) * (h - r) * ti.z * (ti.y + tj.y) / (h * h * r);
                 }
                 hand(b, -static_cast<double>(impulse) * wide(x), wide(xj.xyz()));
             }
