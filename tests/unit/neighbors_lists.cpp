@@ -32,6 +32,16 @@ std::vector<Cloud::Point> mixed(int n) {
     return points;
 }
 
+// The levels of adaptive particles: supports 2^(1/3) apart, in regions and strewn.
+std::vector<Cloud::Point> levels(std::vector<Cloud::Point> points) {
+    Random random{5};
+    for (Cloud::Point& p : points) {
+        const float region = p.position.x > 0.01f ? 3 : 0, level = random() < 0.3f ? std::floor(random(0, 4)) : region;
+        p.support = kH * std::cbrt(std::exp2(level));
+    }
+    return points;
+}
+
 std::vector<Cloud::Point> clustered(int n) {
     Random random;
     std::vector<Cloud::Point> points;
@@ -142,6 +152,10 @@ struct Case {
 std::vector<Case> cases() {
     return {{"uniform", uniform(1500, kH)},
             {"mixed", mixed(1300)},
+            {"levels", levels(uniform(2500, 1.3f * kH))},
+            {"levels and clusters", levels(clustered(1400))},
+            {"levels in folded cells", levels(sparse(2200))},
+            {"levels far apart", levels(farApart(1200))},
             {"clustered", clustered(900)},
             {"coincident", coincident(1203)},
             {"elongated", elongated(1500)},

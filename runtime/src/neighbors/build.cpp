@@ -52,8 +52,8 @@ void Neighbors::build(const Particles& particles, Tasks& tasks) {
     layOut();
     entries.resizeRaw(total);
 
-    ListArgs args{grid_, cellStart_.data(), cellOf_.data(), x,      y, z, h, n, particles.moverCount,
-                  0,     nullptr,           nullptr,        nullptr};
+    ListArgs args{grids_, cellStart_.data(), cellOf_.data(), x,      y, z, h, n, particles.moverCount,
+                  0,      nullptr,           nullptr,        nullptr};
     args.support = minSupport_ == maxSupport_ ? maxSupport_ : 0;
     args.entries = entries.data(), args.first = first.data(), args.width = width.data();
     const auto make = [&](int block, int worker) {

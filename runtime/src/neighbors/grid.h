@@ -10,14 +10,18 @@
 
 namespace thaw {
 
-// Cells over the particles' bounding box, as wide as the largest support. A box that would need too many cells is
-// folded: along such an axis the cells repeat like a torus. Rows from afar then share a cell and only cost a distance
-// test; with at least four cells an axis, the three cells that a search visits are still different ones.
+// Cells over the particles' bounding box, as wide as the largest support of their class (Neighbors). A box that would
+// need too many cells is folded: along such an axis the cells repeat like a torus. Rows from afar then share a cell and
+// only cost a distance test; with at least four cells an axis, the three cells that a search visits are still different
+// ones.
 struct CellGrid {
     struct Range {
         uint32_t begin, end; // rows
     };
     static constexpr int kMaxRanges = 18;
+    // Of a box as wide as a cell of twice the width and as far beyond as two such supports reach: 7 x 7 rows of cells,
+    // each folded once.
+    static constexpr int kMaxBoxRanges = 98;
 
     double origin[3] = {0, 0, 0};
     double inverseCell = 0; // 1/m
@@ -37,27 +41,19 @@ struct CellGrid {
         return static_cast<int>(std::clamp(t, -2.0, static_cast<double>(cells[axis]) + 1)); // outside stays outside
     }
 
-    // A cell and how many to its left and right, per axis, each 0 or 1.
-    struct Reach {
-        int cell[3], left[3] = {1, 1, 1}, right[3] = {1, 1, 1};
-    };
-    // The cells that hold all within `radius` of p, at most a cell's width.
-    Reach reach(Vec3 p, float radius) const {
-        const float at[3] = {p.x, p.y, p.z};
-        Reach r;
+    // Of a grid that is not folded: the cell's box, a little larger than what is in it.
+    void boxOf(const int cell[3], double* low, double* high) const {
         for (int a = 0; a < 3; ++a) {
-            r.cell[a] = coordinate(a, at[a]);
-            r.left[a] = coordinate(a, at[a] - radius) != r.cell[a];
-            r.right[a] = coordinate(a, at[a] + radius) != r.cell[a];
+            low[a] = origin[a] + (cell[a] - 1e-6) / inverseCell;
+            high[a] = origin[a] + (cell[a] + 1 + 1e-6) / inverseCell;
         }
-        return r;
     }
 
-    // The rows of the cells of `r`, not empty, in ascending order; start: of one class, per cell the first row, one
-    // more than cells.
-    int ranges(const uint32_t* start, const Reach& r, Range* out) const {
+    // The rows of a cell and the 26 around it, ranges that are not empty, in ascending order; start: of one class, per
+    // cell the first row, one more than cells.
+    int ranges(const uint32_t* start, const int cell[3], Range* out) const {
         int xs[2][2], spans = 0; // runs of cells along x
-        const int left = r.cell[0] - r.left[0], right = r.cell[0] + r.right[0];
+        const int left = cell[0] - 1, right = cell[0] + 1;
         if (!folded[0]) {
             xs[0][0] = std::max(left, 0), xs[0][1] = std::min(right, cells[0] - 1);
             spans = xs[0][0] <= xs[0][1] ? 1 : 0;
@@ -69,28 +65,59 @@ struct CellGrid {
             xs[0][0] = left, xs[0][1] = right, spans = 1;
         }
         int n = 0;
-        for (int dz = -r.left[2]; dz <= r.right[2]; ++dz) {
-            int cz = wrapped(2, r.cell[2] + dz);
+        for (int dz = -1; dz <= 1; ++dz) {
+            const int cz = wrapped(2, cell[2] + dz);
             if (cz < 0) continue;
-            for (int dy = -r.left[1]; dy <= r.right[1]; ++dy) {
-                int cy = wrapped(1, r.cell[1] + dy);
+            for (int dy = -1; dy <= 1; ++dy) {
+                const int cy = wrapped(1, cell[1] + dy);
                 if (cy < 0) continue;
-                const uint32_t* row =
-                    start + (static_cast<size_t>(cz) * static_cast<size_t>(cells[1]) + static_cast<size_t>(cy)) *
-                                static_cast<size_t>(cells[0]);
-                for (int s = 0; s < spans; ++s) {
-                    const Range rows{row[xs[s][0]], row[xs[s][1] + 1]};
-                    if (rows.begin == rows.end) continue;
-                    int k = n++;
-                    for (; k > 0 && out[k - 1].begin > rows.begin; --k) out[k] = out[k - 1];
-                    out[k] = rows;
-                }
+                for (int s = 0; s < spans; ++s) n = insert(start, cz, cy, xs[s][0], xs[s][1], out, n);
             }
         }
         return n;
     }
 
+    // The same for the cells that a box touches; at most kMaxBoxRanges for one no wider than said there.
+    int boxRanges(const uint32_t* start, const double low[3], const double high[3], Range* out) const {
+        int from[3], count[3];
+        for (int a = 0; a < 3; ++a) {
+            double first = std::floor((low[a] - origin[a]) * inverseCell);
+            double last = std::floor((high[a] - origin[a]) * inverseCell);
+            if (!folded[a]) {
+                first = std::max(first, 0.0), last = std::min(last, static_cast<double>(cells[a] - 1));
+                if (!(first <= last)) return 0;
+                from[a] = static_cast<int>(first), count[a] = static_cast<int>(last - first) + 1;
+            } else if (!(last - first + 1 < cells[a])) {
+                from[a] = 0, count[a] = cells[a];
+            } else {
+                const int64_t m = static_cast<int64_t>(std::clamp(first, -4e18, 4e18)) % cells[a];
+                from[a] = static_cast<int>(m < 0 ? m + cells[a] : m), count[a] = static_cast<int>(last - first) + 1;
+            }
+        }
+        const int right = from[0] + count[0] - 1;
+        int n = 0;
+        for (int z = 0; z < count[2]; ++z)
+            for (int y = 0; y < count[1]; ++y) {
+                const int cz = (from[2] + z) % cells[2], cy = (from[1] + y) % cells[1];
+                if (right >= cells[0]) n = insert(start, cz, cy, 0, right - cells[0], out, n);
+                n = insert(start, cz, cy, from[0], std::min(right, cells[0] - 1), out, n);
+            }
+        return n;
+    }
+
 private:
+    // Adds the rows of a run of cells along x to n ranges in ascending order; returns how many there are now.
+    int insert(const uint32_t* start, int z, int y, int left, int right, Range* out, int n) const {
+        const uint32_t* row =
+            start + (static_cast<size_t>(z) * static_cast<size_t>(cells[1]) + static_cast<size_t>(y)) *
+                        static_cast<size_t>(cells[0]);
+        const Range rows{row[left], row[right + 1]};
+        if (rows.begin == rows.end) return n;
+        int k = n;
+        for (; k > 0 && out[k - 1].begin > rows.begin; --k) out[k] = out[k - 1];
+        out[k] = rows;
+        return n + 1;
+    }
     // -1: there is no such cell.
     int wrapped(int axis, int c) const {
         if (c >= 0 && c < cells[axis]) return c;

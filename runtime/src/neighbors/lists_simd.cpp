@@ -35,38 +35,60 @@ namespace HWY_NAMESPACE {
 
 // Where the candidates of a row come from: one copied cell, or the ranges themselves when they are too many.
 struct Candidates {
-    CellGrid::Range ranges[2 * CellGrid::kMaxRanges];
+    CellGrid::Range ranges[2 * (CellGrid::kMaxRanges + (GridSet::kMost - 1) * CellGrid::kMaxBoxRanges)];
     int rangeCount = 0;
-    int count = 0;         // copied; -1: not copied
-    int shift[2] = {0, 0}; // row + shift of its class: place in the copy
+    int count = 0; // copied; -1: not copied
+    int shift = 0; // row + shift: place in the copy
 };
 
-// Copies what lies in the 27 cells around a cell into scratch: 6.5 ns a row and every test reads from L1 in one stream.
-template <bool kMixed> void collect(const ListArgs& a, uint32_t key, ListScratch& s, Candidates& c) {
-    const uint32_t cells = static_cast<uint32_t>(a.grid.cellCount());
-    const uint32_t cell = key < cells ? key : key - cells;
-    const int nx = a.grid.cells[0], ny = a.grid.cells[1];
-    const int x = static_cast<int>(cell) % nx, y = static_cast<int>(cell) / nx % ny,
-              z = static_cast<int>(cell) / nx / ny;
+// Copies what lies around a cell into scratch: 6.5 ns a row and every test reads from L1 in one stream. Of the cell's
+// own class that is in the 27 cells; of the others, in all that its box and the pairs' supports touch. Where the grid
+// is folded a cell has no box: there it is done for every row on its own. Returns whether it holds for the whole cell.
+template <bool kMixed> bool collect(const ListArgs& a, int self, ListScratch& s, Candidates& c) {
+    const uint32_t cells = a.grids.cellCount(), key = a.cellOf[self];
+    uint32_t cell = key < cells ? key : key - cells;
+    int own = 0;
+    while (cell >= a.grids.first[own + 1]) ++own;
+    cell -= a.grids.first[own];
+    const CellGrid& grid = a.grids.grid[own];
+    const int at[3] = {static_cast<int>(cell) % grid.cells[0], static_cast<int>(cell) / grid.cells[0] % grid.cells[1],
+                       static_cast<int>(cell) / grid.cells[0] / grid.cells[1]};
+    const bool whole = a.grids.count == 1 || !(grid.folded[0] || grid.folded[1] || grid.folded[2]);
+    double low[3], high[3];
+    if (a.grids.count > 1) {
+        const double p[3] = {a.x[self], a.y[self], a.z[self]};
+        if (whole)
+            grid.boxOf(at, low, high);
+        else
+            for (int k = 0; k < 3; ++k) low[k] = high[k] = p[k];
+    }
     c.rangeCount = 0;
     const int firstKind = a.moverCount > 0 ? 0 : 1, lastKind = a.moverCount < a.count ? 1 : 0;
     for (int kind = firstKind; kind <= lastKind; ++kind)
-        c.rangeCount +=
-            a.grid.ranges(a.cellStart + static_cast<uint32_t>(kind) * cells, {{x, y, z}}, c.ranges + c.rangeCount);
-    const uint32_t own[2] = {a.cellStart[cell], a.cellStart[cell + cells]};
+        for (int other = 0; other < a.grids.count; ++other) {
+            const uint32_t* start = a.cellStart + a.grids.offset(kind, other);
+            if (other == own) {
+                c.rangeCount += grid.ranges(start, at, c.ranges + c.rangeCount);
+                continue;
+            }
+            const double way = 0.5 * (static_cast<double>(a.grids.support[own]) + a.grids.support[other]);
+            const double from[3] = {low[0] - way, low[1] - way, low[2] - way};
+            const double to[3] = {high[0] + way, high[1] + way, high[2] + way};
+            c.rangeCount += a.grids.grid[other].boxRanges(start, from, to, c.ranges + c.rangeCount);
+        }
+    const uint32_t mine = a.cellStart[key];
 
     int n = 0;
     for (int r = 0; r < c.rangeCount; ++r) n += static_cast<int>(c.ranges[r].end - c.ranges[r].begin);
     c.count = -1;
-    if (n > ListScratch::kCandidates) return;
+    if (n > ListScratch::kCandidates) return whole;
     c.count = n;
     n = 0;
     const U32 step = hn::Set(kU32, 16 * kLanes);
     const U32 lane = hn::ShiftLeft<4>(hn::Iota(kU32, 0));
     for (int r = 0; r < c.rangeCount; ++r) {
         const uint32_t begin = c.ranges[r].begin, end = c.ranges[r].end;
-        for (int kind = 0; kind < 2; ++kind)
-            if (own[kind] >= begin && own[kind] < end) c.shift[kind] = n - static_cast<int>(begin);
+        if (mine >= begin && mine < end) c.shift = n - static_cast<int>(begin);
         U32 entry = hn::Add(hn::Set(kU32, 16 * begin), lane);
         for (uint32_t j = begin; j < end; j += kLanes) {
             const uint32_t to = static_cast<uint32_t>(n) + j - begin;
@@ -81,6 +103,7 @@ template <bool kMixed> void collect(const ListArgs& a, uint32_t key, ListScratch
     }
     store(all(Particles::kFar), s.x + n);
     store(zero(), s.y + n), store(zero(), s.z + n), store(zero(), s.h + n);
+    return whole;
 }
 
 struct Self {
@@ -207,12 +230,9 @@ template <bool kMixed> void buildBlock(const ListArgs& a, ListScratch& s, int be
             const int i = 8 * g + l;
             n[l] = 0;
             if (i >= a.count) continue;
-            if (a.cellOf[i] != key) {
-                key = a.cellOf[i];
-                collect<kMixed>(a, key, s, c);
-            }
+            if (a.cellOf[i] != key) key = collect<kMixed>(a, i, s, c) ? a.cellOf[i] : ~0u;
             const Self self{all(a.x[i]), all(a.y[i]), all(a.z[i]), all(a.h[i])};
-            n[l] = c.count >= 0 ? scanCopied<kMixed>(s, c.count, i + c.shift[i >= a.moverCount], self, limit, s.row[l])
+            n[l] = c.count >= 0 ? scanCopied<kMixed>(s, c.count, i + c.shift, self, limit, s.row[l])
                                 : scanInPlace<kMixed>(a, c, i, self, limit, s.row[l]);
             if (n[l] > Neighbors::kMaxNeighbors) n[l] = Neighbors::kMaxNeighbors, done.clipped = true;
             if (n[l] > most) most = n[l];

@@ -21,7 +21,10 @@ class Neighbors {
 public:
     explicit Neighbors(Allocator& allocator);
 
-    // Sorts the rows: movers first, then by cell, then by the order they had (stable). Permutes every particle field.
+    // Sorts the rows: movers first, then by class of support, then by cell, then by the order they had (stable).
+    // Permutes every particle field. Classes, when the largest support is at most twice the smallest: one per level
+    // (2^(1/3) apart), each with cells of its own width, or fine particles beside coarse ones would test eight times
+    // as many candidates. Otherwise all are one class.
     void sort(Particles& particles, Tasks& tasks);
     // Builds the lists from the sorted rows, at the positions of that sort. Grows its own memory when needed.
     void build(const Particles& particles, Tasks& tasks);
@@ -43,7 +46,7 @@ public:
     bool clipped = false; // a row had more neighbours than kMaxNeighbors; the farthest in row order were left out
     static constexpr int kMaxNeighbors = 256;
 
-    // Calls f(j) for every row j whose position may be within `radius` of p (whole cells), in ascending cell order; the
+    // Calls f(j) for every row j whose position may be within `radius` of p (whole cells), in ascending order; the
     // cells are those of the last sort. radius at most the largest support.
     template <class F> void forCandidates(Vec3 p, float radius, F&& f) const {
         forCandidates(0, p, radius, static_cast<F&&>(f));
@@ -61,14 +64,16 @@ private:
     };
     void layGrid(const Particles& particles, Tasks& tasks);
 
-    CellGrid grid_;
+    GridSet grids_;
     float minSupport_ = 0, maxSupport_ = 0;
-    Array<uint32_t> cellStart_;     // by 2 x cell: movers, then fixed; first row
-    Array<uint32_t> cellOf_, keys_; // per row, class included
-    Array<uint32_t> order_;         // per new row, the old one
-    Array<Bounds> bounds_;          // per block of rows
-    Array<float> soa_;              // x, y, z, h
-    Array<Vec4> packed_;            // xyz, w volume
+    float bound_[GridSet::kMost] = {}; // largest support of each class that could be
+    int slot_[GridSet::kMost] = {};    // and where those that are have their grid
+    Array<uint32_t> cellStart_;        // by 2 x cell of all classes: movers, then fixed; first row
+    Array<uint32_t> cellOf_, keys_;    // per row, class included
+    Array<uint32_t> order_;            // per new row, the old one
+    Array<Bounds> bounds_;             // per block of rows
+    Array<float> soa_;                 // x, y, z, h
+    Array<Vec4> packed_;               // xyz, w volume
     Array<ListBlock> blocks_;
     Array<int> redo_;
     Array<ListScratch> scratch_; // per worker
@@ -76,13 +81,15 @@ private:
 
 template <class F> void Neighbors::forCandidates(int firstKind, Vec3 p, float radius, F&& f) const {
     if (cellStart_.empty()) return;
-    const CellGrid::Reach reach = grid_.reach(p, radius);
-    for (int kind = firstKind; kind < 2; ++kind) {
-        CellGrid::Range ranges[CellGrid::kMaxRanges];
-        const int n = grid_.ranges(cellStart_.data() + kind * grid_.cellCount(), reach, ranges);
-        for (int r = 0; r < n; ++r)
-            for (uint32_t j = ranges[r].begin; j < ranges[r].end; ++j) f(static_cast<int>(j));
-    }
+    const double at[3] = {p.x, p.y, p.z}, way = static_cast<double>(radius);
+    const double low[3] = {at[0] - way, at[1] - way, at[2] - way}, high[3] = {at[0] + way, at[1] + way, at[2] + way};
+    for (int kind = firstKind; kind < 2; ++kind)
+        for (int c = 0; c < grids_.count; ++c) {
+            CellGrid::Range ranges[CellGrid::kMaxBoxRanges];
+            const int n = grids_.grid[c].boxRanges(cellStart_.data() + grids_.offset(kind, c), low, high, ranges);
+            for (int r = 0; r < n; ++r)
+                for (uint32_t j = ranges[r].begin; j < ranges[r].end; ++j) f(static_cast<int>(j));
+        }
 }
 
 // Calls f(j) for the neighbours j of row i in ascending order until it returns false; rows from `count` on are dummies.

@@ -13,6 +13,17 @@ namespace thaw {
 // The vector loops of Neighbors, compiled per instruction set. Each works on a range of groups and may run next to
 // others.
 
+// The cells of all classes of support that there are (Neighbors::sort).
+struct GridSet {
+    static constexpr int kMost = 4;
+    int count = 1;
+    CellGrid grid[kMost];
+    float support[kMost] = {};          // the largest of the class
+    uint32_t first[kMost + 1] = {0, 1}; // cell of the class; the last one: of all
+    uint32_t cellCount() const { return first[count]; }
+    uint32_t offset(int kind, int c) const { return static_cast<uint32_t>(kind) * cellCount() + first[c]; }
+};
+
 // What one worker needs while it makes lists: the candidates of one cell, and the eight rows of a group before they are
 // interleaved.
 struct ListScratch {
@@ -29,7 +40,7 @@ struct ListScratch {
 };
 
 struct ListArgs {
-    CellGrid grid;
+    const GridSet& grids;
     const uint32_t* cellStart; // 2 cellCount + 1: movers, then fixed
     const uint32_t* cellOf;    // per row
     const float *x, *y, *z, *h;

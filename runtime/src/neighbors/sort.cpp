@@ -20,6 +20,18 @@ Vec4 greater(const Vec4& a, const Vec4& b) {
 // More cells than this are slower to clear and sum than the strangers in folded cells are to test.
 int cellLimit(int particles) { return std::max(1 << 14, 4 * particles); }
 
+// The largest support of each class: 2^(1/3) apart. The slack keeps what is rounded differently together.
+void classBounds(float least, float most, float* bound) {
+    constexpr float kRatio[GridSet::kMost] = {1, 1.25992105f, 1.58740105f, 2};
+    const bool apart = most <= 2.0002f * least;
+    for (int c = 0; c < GridSet::kMost; ++c) bound[c] = apart ? kRatio[c] * 1.0001f * least : most;
+}
+int classOf(float support, const float* bound) {
+    int c = 0;
+    while (c < GridSet::kMost - 1 && support > bound[c]) ++c;
+    return c;
+}
+
 } // namespace
 
 Neighbors::Neighbors(Allocator& a)
@@ -39,30 +51,47 @@ void Neighbors::layGrid(const Particles& particles, Tasks& tasks) {
     for (const Bounds& b : bounds_) lower = lesser(lower, b.lower), upper = greater(upper, b.upper);
     minSupport_ = lower.w, maxSupport_ = upper.w;
 
-    // A little wider than the support, so that no rounding puts two neighbours two cells apart.
-    const double cell = static_cast<double>(maxSupport_) * 1.00001;
+    classBounds(minSupport_, maxSupport_, bound_);
+    uint32_t present = 0;
+    if (minSupport_ == maxSupport_) {
+        present = 1;
+    } else {
+        for (int i = 0; i < n; ++i) present |= 1u << classOf(position[i].w, bound_);
+    }
     const double low[3] = {lower.x, lower.y, lower.z}, high[3] = {upper.x, upper.y, upper.z};
-    grid_.inverseCell = 1 / cell;
-    double wanted[3];
-    for (int k = 0; k < 3; ++k) {
-        grid_.origin[k] = low[k];
-        wanted[k] = std::floor((high[k] - low[k]) / cell * (1 + 1e-12)) + 2; // at least one to spare
-        grid_.folded[k] = false;
+    grids_.count = 0, grids_.first[0] = 0;
+    for (int c = 0; c < GridSet::kMost; ++c) {
+        if (!(present >> c & 1)) continue;
+        slot_[c] = grids_.count;
+        CellGrid& grid = grids_.grid[grids_.count];
+        grids_.support[grids_.count] = std::min(bound_[c], maxSupport_);
+        // A little wider than the support, so that no rounding puts two neighbours two cells apart.
+        const double cell = static_cast<double>(grids_.support[grids_.count]) * 1.00001;
+        grid.inverseCell = 1 / cell;
+        double wanted[3];
+        for (int k = 0; k < 3; ++k) {
+            grid.origin[k] = low[k];
+            wanted[k] = std::floor((high[k] - low[k]) / cell * (1 + 1e-12)) + 2; // at least one to spare
+            grid.folded[k] = false;
+        }
+        while (wanted[0] * wanted[1] * wanted[2] > (cellLimit(n) >> c)) {
+            int k = wanted[0] >= wanted[1] && wanted[0] >= wanted[2] ? 0 : wanted[1] >= wanted[2] ? 1 : 2;
+            wanted[k] = std::ceil(wanted[k] / 2);
+            grid.folded[k] = true;
+        }
+        for (int k = 0; k < 3; ++k) grid.cells[k] = static_cast<int>(wanted[k]);
+        ++grids_.count;
+        grids_.first[grids_.count] = grids_.first[grids_.count - 1] + static_cast<uint32_t>(grid.cellCount());
     }
-    while (wanted[0] * wanted[1] * wanted[2] > cellLimit(n)) {
-        int k = wanted[0] >= wanted[1] && wanted[0] >= wanted[2] ? 0 : wanted[1] >= wanted[2] ? 1 : 2;
-        wanted[k] = std::ceil(wanted[k] / 2);
-        grid_.folded[k] = true;
-    }
-    for (int k = 0; k < 3; ++k) grid_.cells[k] = static_cast<int>(wanted[k]);
 }
 
 void Neighbors::sort(Particles& particles, Tasks& tasks) {
     const int n = particles.count;
     const size_t rows = static_cast<size_t>(n);
     particles.moverCount = 0;
-    grid_ = {};
-    cellStart_.reserve(2 * static_cast<size_t>(cellLimit(particles.capacity)) + 2);
+    grids_ = {};
+    // Twice for movers and fixed, twice for all the classes, each of which may have half the cells of the one before.
+    cellStart_.reserve(4 * static_cast<size_t>(cellLimit(particles.capacity)) + 2);
     if (n == 0) {
         minSupport_ = maxSupport_ = 0;
         cellStart_.assign(3, 0);
@@ -72,27 +101,30 @@ void Neighbors::sort(Particles& particles, Tasks& tasks) {
     }
     layGrid(particles, tasks);
 
-    const size_t cells = static_cast<size_t>(grid_.cellCount());
+    const size_t cells = static_cast<size_t>(grids_.cellCount());
     keys_.resizeRaw(rows), cellOf_.resizeRaw(rows), order_.resizeRaw(rows);
     const Vec4* position = particles.position.data();
     const uint8_t* flags = particles.flags.data();
     uint32_t* keys = keys_.data();
-    const bool folded = grid_.folded[0] || grid_.folded[1] || grid_.folded[2];
+    const bool several = grids_.count > 1;
     tasks.forBlocks(n, kRowBlock, [&](int begin, int end, int, int) {
-        const CellGrid g = grid_;
         const uint32_t fixedOffset = static_cast<uint32_t>(cells);
+        CellGrid g = grids_.grid[0];
+        int last = 0;
         for (int i = begin; i < end; ++i) {
             const Vec4 p = position[i];
+            if (several)
+                if (const int c = slot_[classOf(p.w, bound_)]; c != last) g = grids_.grid[c], last = c;
             int x, y, z;
-            if (folded) {
+            if (g.folded[0] || g.folded[1] || g.folded[2]) {
                 x = g.coordinate(0, p.x), y = g.coordinate(1, p.y), z = g.coordinate(2, p.z);
             } else { // nothing lies below the origin, so truncation is the floor
                 x = static_cast<int>((static_cast<double>(p.x) - g.origin[0]) * g.inverseCell);
                 y = static_cast<int>((static_cast<double>(p.y) - g.origin[1]) * g.inverseCell);
                 z = static_cast<int>((static_cast<double>(p.z) - g.origin[2]) * g.inverseCell);
             }
-            keys[i] =
-                static_cast<uint32_t>((z * g.cells[1] + y) * g.cells[0] + x) + ((flags[i] & kFixed) ? fixedOffset : 0);
+            keys[i] = static_cast<uint32_t>((z * g.cells[1] + y) * g.cells[0] + x) + grids_.first[last] +
+                      ((flags[i] & kFixed) ? fixedOffset : 0);
         }
     });
 
