@@ -261,6 +261,14 @@ void RigidLiquid::turn(const MotionFrame& f, double keep, Vec4* direction) {
     }
 }
 
+// The iterations keep these to themselves: what springs of contact pull at is where the rows go.
+void RigidLiquid::show(const MotionFrame& f) {
+    for (const Unknown& u : unknowns_) {
+        const RigidPiece& b = rigid_->pieces()[u.slot];
+        spread(f, u, {b.velocity, b.spin}, f.particles.velocity.data());
+    }
+}
+
 // What the solve changed is an impulse; what sleeps gets its pairs', by the velocities that came out.
 void RigidLiquid::finish(const MotionFrame& f, bool sound) {
     const Particles& p = f.particles;
@@ -270,8 +278,10 @@ void RigidLiquid::finish(const MotionFrame& f, bool sound) {
         RigidPiece& b = pieces[u.slot];
         if (!sound) b.velocity = u.before.linear, b.spin = u.before.angular;
         b.solved = true;
-        b.drag = b.velocity - u.before.linear, b.dragSpin = b.spin - u.before.angular;
-        const Six impulse = massTimes(b, {b.drag, b.dragSpin});
+        // Springs of contact push in steps of their own: no start for the next solve.
+        const Six change{b.velocity - u.before.linear, b.spin - u.before.angular};
+        b.drag = u.springs ? Double3{} : change.linear, b.dragSpin = u.springs ? Double3{} : change.angular;
+        const Six impulse = massTimes(b, change);
         b.linear += impulse.linear, b.angular += impulse.angular;
     }
     for (RigidPiece& b : pieces)

@@ -58,6 +58,7 @@ public:
     double curvature(const MotionFrame& f, Vec4* direction);
     Dots advance(double along);
     void turn(const MotionFrame& f, double keep, Vec4* direction);
+    void show(const MotionFrame& f); // gives the rows the velocities that the iterations have come to
     void finish(const MotionFrame& f, bool sound);
 
     void press(const MotionFrame& f, const Vec4* point); // after a pressure iteration; w: its change, Pa

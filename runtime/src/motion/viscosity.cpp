@@ -222,6 +222,7 @@ void Motion::viscosity(const MotionFrame& f) {
             for (size_t i = 0; i < static_cast<size_t>(p.moverCount); ++i)
                 if (piece_[i] == kAfloat) piece_[i] = kUnknown;
         }
+        if (pieces && round > 0) pieces->show(f);
         findResidual();
         if (bonded_) {
             const bool changed = regrip(f);
@@ -318,6 +319,7 @@ void Motion::viscosity(const MotionFrame& f) {
     // A solve that met a number that is not finite must not spread it.
     const bool sound = std::isfinite(rr) && std::isfinite(rz);
 
+    if (sound && pieces) pieces->show(f);
     if (sound && bonded_ && reporting_) findResidual(), reportGrip(f);
     if (sound && pieces) returnShared(f);
     if (sound) returnMomentum(f, wallsMove_ || reporting_ || heldMoves_);
