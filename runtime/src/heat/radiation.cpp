@@ -34,8 +34,7 @@ constexpr float kEnough = 0.05f;
 // Way by a spacing, of the particle or of what shades, changes at most this share of what is seen, as a rule: few are
 // at the edge of a shadow. What moves by a fifth of a spacing in a step looks in every one.
 constexpr float kByWay = 0.25f;
-// In more doubt than that, nobody asks what else moved: the 66 regions of a candle cost as much as the ray. Where all
-// may look, being due is enough.
+// In more doubt than that, nobody asks what else moved. Where all may look, being due is enough.
 constexpr float kSurely = 0.25f;
 constexpr uint8_t kOldest = 100;
 // An obstacle this many spacings off moves its shadow by one when the source moves by 1 / kLever of its distance.
@@ -99,6 +98,12 @@ struct Way {
         return enter <= leave;
     }
 };
+
+// So many regions can be asked about for the price of a ray.
+constexpr size_t kAskWorth = 16;
+size_t askWorth(const HeatFrame& f, const Emitter& e) {
+    return kAskWorth * static_cast<size_t>(e.area() ? f.raysPerSource : 1);
+}
 
 float uniform(uint64_t bits) { return static_cast<float>(bits & 0xffffff) * (1.0f / 16777216.0f); }
 
@@ -259,7 +264,10 @@ void Radiation::Impl::weigh(const HeatFrame& f, int begin, int end) {
                 const float far = s.type == thawHeatSource_directional ? 1.0f : length(there - r.position);
                 doubt += std::min(1.0f, kLever * s.shift / std::max(far, 1e-6f));
             }
-            if (doubt < sure && visibility && !visibility->stirs().empty()) {
+            const bool stirred = doubt < sure && visibility && !visibility->stirs().empty();
+            if (stirred && f.rayRefresh >= 1 && visibility->stirs().size() > askWorth(f, s)) {
+                doubt = sure;
+            } else if (stirred) {
                 // Against the melt, rays only see from their skip on.
                 const Ray ray = rayTo(r, p.position[row].xyz(), there, spacing);
                 const Way fromSurface(r.position, there, s.extent),

@@ -3,6 +3,7 @@
 #include "heat/visibility.h"
 
 #include "base/math.h"
+#include "heat/sphere_tree.h"
 
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
@@ -107,42 +108,6 @@ void frontFacesOnly(const RTCFilterFunctionNArguments* a) {
     }
 }
 
-void sphereBounds(const RTCBoundsFunctionArguments* a) {
-    const Vec4& s = static_cast<const Vec4*>(a->geometryUserPtr)[a->primID];
-    const float r = s.w * 1.0001f; // so that no rounding in the tree decides what a sphere's own test decides
-    *a->bounds_o = {s.x - r, s.y - r, s.z - r, 0, s.x + r, s.y + r, s.z + r, 0};
-}
-
-void sphereOccluded(const RTCOccludedFunctionNArguments* a) {
-    const Vec4& s = static_cast<const Vec4*>(a->geometryUserPtr)[a->primID];
-    if (a->N == 8) {
-        // The packets that cast() makes, in a form that compilers turn into vector code.
-        RTCRay8& r = *reinterpret_cast<RTCRay8*>(a->ray);
-        const float rr = s.w * s.w;
-        float t[8], disc[8];
-        for (int i = 0; i < 8; ++i) {
-            const float x = r.org_x[i] - s.x, y = r.org_y[i] - s.y, z = r.org_z[i] - s.z;
-            const float b = x * r.dir_x[i] + y * r.dir_y[i] + z * r.dir_z[i];
-            disc[i] = b * b - (x * x + y * y + z * z - rr);
-            t[i] = -b - std::sqrt(disc[i] > 0 ? disc[i] : 0.0f);
-        }
-        for (int i = 0; i < 8; ++i) {
-            const bool hit = a->valid[i] && disc[i] >= 0 && t[i] > r.tnear[i] && t[i] < r.tfar[i];
-            r.tfar[i] = hit ? -INFINITY : r.tfar[i];
-        }
-        return;
-    }
-    for (unsigned i = 0; i < a->N; ++i) {
-        if (!a->valid[i]) continue;
-        const Lane ray{a->ray, a->N, i};
-        if (entersSphere(ray.origin(), ray.direction(), s.xyz(), s.w, ray.nearest(), ray.farthest())) ray.block();
-    }
-}
-
-// The tree loses quality as the spheres move away from where it was built: refit only so often.
-constexpr int kRefitsPerBuild = 32;
-// Places kept for particles that come to the surface before the next build, as a share of the spheres.
-constexpr float kSpare = 0.15f;
 // Spheres whose movement is told as one region.
 constexpr size_t kStirBatch = 128;
 // Those that came or went are told one by one up to so many.
@@ -152,11 +117,10 @@ constexpr uint32_t kNoId = std::numeric_limits<uint32_t>::max();
 } // namespace
 
 struct Visibility::Impl {
-    explicit Impl(Allocator& a) : spheres(a), ids(a), taken(a), keys(a), slots(a), unplaced(a), stirs(a), batches(a) {}
+    explicit Impl(Allocator& a) : tree(a), spheres(a), ids(a), taken(a), keys(a), places(a), stirs(a), batches(a) {}
 
     RTCDevice device = nullptr;
-    RTCScene solidScene = nullptr, meltScene = nullptr;
-    RTCGeometry melt = nullptr;
+    RTCScene solidScene = nullptr;
     tbb::task_arena arena{1, 1};
 
     // A collider as it is in the tree.
@@ -180,7 +144,7 @@ struct Visibility::Impl {
     };
     std::vector<MeshScene> meshScenes;
     RTCGeometry solidGeometry = nullptr;
-    bool collidersDirty = false, meltDirty = false, meltAnew = false;
+    bool collidersDirty = false, meltDirty = false;
     std::vector<Solid> solids;
     struct Plane {
         Vec3 point, normal;
@@ -189,16 +153,12 @@ struct Visibility::Impl {
     uint64_t version = 0;
     bool collidersKnown = false, anySolid = false;
 
-    // Places of the tree. A place without a particle repeats the sphere of place 0: Embree drops what has no bounds,
-    // and a refit could not bring it back.
-    Array<Vec4> spheres;
-    Array<uint32_t> ids;  // per place, kNoId when free
-    Array<uint8_t> taken; // per place, in this call
+    SphereTree tree;
+    Array<Vec4> spheres;  // of the last call
+    Array<uint32_t> ids;  // of the same
+    Array<uint8_t> taken; // per sphere of the last call: it is there again
     Array<uint32_t> keys; // open addressing: id
-    Array<int> slots;     // and its place
-    Array<int> unplaced;  // indices of spheres without a place yet
-    int refitsSinceBuild = 0;
-    int live = 0;
+    Array<int> places;    // and which sphere it has
     Array<Stir> stirs;
     Array<Stir> batches; // of the spheres, per kStirBatch of them
 
@@ -232,26 +192,24 @@ struct Visibility::Impl {
     }
 
     size_t mask() const { return keys.size() - 1; }
-    static size_t placesFor(size_t n) { return n + static_cast<size_t>(kSpare * static_cast<float>(n)) + 8; }
-    static size_t tableFor(size_t places) {
+    static size_t tableFor(size_t count) {
         size_t size = 64;
-        while (size < 2 * places) size *= 2;
+        while (size < 2 * count) size *= 2;
         return size;
     }
     static size_t scatter(uint32_t id) { return static_cast<size_t>(id * 2654435761u >> 7); }
     void makeTable() {
         const size_t size = tableFor(ids.size());
-        keys.assign(size, kNoId), slots.resizeRaw(size);
+        keys.assign(size, kNoId), places.resizeRaw(size);
         for (size_t s = 0; s < ids.size(); ++s) {
-            if (ids[s] == kNoId) continue;
             size_t k = scatter(ids[s]) & mask();
             while (keys[k] != kNoId) k = (k + 1) & mask();
-            keys[k] = ids[s], slots[k] = static_cast<int>(s);
+            keys[k] = ids[s], places[k] = static_cast<int>(s);
         }
     }
     int find(uint32_t id) const {
         for (size_t k = scatter(id) & mask(); keys[k] != kNoId; k = (k + 1) & mask())
-            if (keys[k] == id) return slots[k];
+            if (keys[k] == id) return places[k];
         return -1;
     }
     void commit(RTCScene scene) {
@@ -260,19 +218,6 @@ struct Visibility::Impl {
             rtcCommitScene(scene);
         });
     }
-    void build() {
-        if (melt) rtcDetachGeometry(meltScene, 0), rtcReleaseGeometry(melt);
-        melt = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(melt, static_cast<unsigned>(spheres.size()));
-        rtcSetGeometryUserData(melt, spheres.data());
-        rtcSetGeometryBoundsFunction(melt, sphereBounds, nullptr);
-        rtcSetGeometryOccludedFunction(melt, sphereOccluded);
-        rtcSetGeometryBuildQuality(melt, RTC_BUILD_QUALITY_REFIT);
-        rtcCommitGeometry(melt);
-        rtcAttachGeometryByID(meltScene, melt, 0);
-        commit(meltScene);
-        refitsSinceBuild = 0;
-    }
 };
 
 Visibility::Visibility(Allocator& allocator) : impl_(std::make_unique<Impl>(allocator)) {
@@ -280,17 +225,14 @@ Visibility::Visibility(Allocator& allocator) : impl_(std::make_unique<Impl>(allo
     FlushDenormals mode;
     impl_->arena.execute([&] { impl_->device = rtcNewDevice("set_affinity=0,start_threads=0"); });
     if (!impl_->device) throw std::bad_alloc();
-    impl_->solidScene = rtcNewScene(impl_->device), impl_->meltScene = rtcNewScene(impl_->device);
+    impl_->solidScene = rtcNewScene(impl_->device);
     rtcSetSceneFlags(impl_->solidScene, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneFlags(impl_->meltScene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
-    rtcSetSceneBuildQuality(impl_->meltScene, RTC_BUILD_QUALITY_LOW);
 }
 
 Visibility::~Visibility() {
     if (!impl_ || !impl_->device) return;
-    if (impl_->melt) rtcReleaseGeometry(impl_->melt);
     for (const auto& s : impl_->meshScenes) rtcReleaseScene(s.scene);
-    rtcReleaseScene(impl_->meltScene), rtcReleaseScene(impl_->solidScene);
+    rtcReleaseScene(impl_->solidScene);
     rtcReleaseDevice(impl_->device);
 }
 
@@ -422,9 +364,11 @@ void Visibility::setColliders(const Collider* colliders, int count, uint64_t ver
 
 void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count, int most, float* moved) {
     Impl& m = *impl_;
-    const bool hadNone = m.live == 0;
-    m.live = count;
-    const size_t n = static_cast<size_t>(count);
+    const size_t n = static_cast<size_t>(count), room = static_cast<size_t>(std::max(count, most));
+    m.spheres.reserve(room), m.ids.reserve(room), m.taken.reserve(room), m.tree.reserve(std::max(count, most));
+    m.keys.reserve(Impl::tableFor(room)), m.places.reserve(Impl::tableFor(room));
+    m.batches.reserve(room / kStirBatch + 1);
+    m.stirs.reserve(room / kStirBatch + kStirsApart + 2 * m.occluders.size() + 16);
     const auto boxOf = [](const Vec4& s) { return Box{s.xyz() - Vec3{s.w, s.w, s.w}, s.xyz() + Vec3{s.w, s.w, s.w}}; };
     // Spheres of a batch lie together: rows are in the order of cells.
     m.batches.assign((n + kStirBatch - 1) / kStirBatch, Stir{{}, 0, true});
@@ -435,10 +379,6 @@ void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count,
         batch.box.grow(boxOf(was).lower), batch.box.grow(boxOf(was).upper);
         batch.amount = std::max(batch.amount, amount);
     };
-    const auto tell = [&] {
-        for (const Stir& batch : m.batches)
-            if (batch.amount > 0) m.stirs.push(batch);
-    };
     // Who is no more among them, each by itself as long as they are few.
     const size_t limit = m.stirs.size() + kStirsApart;
     const auto gone = [&](const Vec4& s) {
@@ -447,67 +387,31 @@ void Visibility::setSpheres(const Vec4* spheres, const uint32_t* ids, int count,
         Stir& last = m.stirs[m.stirs.size() - 1];
         last.box.grow(box.lower), last.box.grow(box.upper), last.amount = std::max(last.amount, s.w);
     };
-    if (count == 0) {
-        for (size_t s = 0; s < m.ids.size() && !hadNone; ++s)
-            if (m.ids[s] != kNoId) gone(m.spheres[s]);
-        return;
-    }
     m.makeTable();
-    const bool fits = !hadNone && m.spheres.size() >= n && 2 * n >= m.spheres.size();
-    bool changed = false;
     m.taken.assign(m.ids.size(), uint8_t{0});
-    m.unplaced.clear();
-    const auto put = [&](size_t slot, size_t i) {
-        const Vec4 &was = m.spheres[slot], &now = spheres[i];
-        changed |= was.x != now.x || was.y != now.y || was.z != now.z || was.w != now.w;
-        m.spheres[slot] = now, m.ids[slot] = ids[i];
-    };
+    bool changed = n != m.ids.size();
     for (size_t i = 0; i < n; ++i) {
-        const int slot = hadNone ? -1 : m.find(ids[i]);
-        if (slot < 0) {
-            m.unplaced.push(static_cast<int>(i));
+        const int place = m.find(ids[i]);
+        if (place < 0) {
+            changed = true;
             gone(spheres[i]); // came, which is the same to those behind it
             if (moved) moved[i] = spheres[i].w;
             continue;
         }
-        const size_t s = static_cast<size_t>(slot);
-        const float way = length(spheres[i].xyz() - m.spheres[s].xyz());
-        if (way > 0) stirs(i, m.spheres[s], way);
+        const Vec4& was = m.spheres[static_cast<size_t>(place)];
+        const float way = length(spheres[i].xyz() - was.xyz());
+        if (way > 0) stirs(i, was, way);
         if (moved) moved[i] = way;
-        m.taken[s] = 1;
-        if (fits) put(s, i);
+        changed |= way > 0 || was.w != spheres[i].w;
+        m.taken[static_cast<size_t>(place)] = 1;
     }
     for (size_t s = 0; s < m.ids.size(); ++s)
-        if (!hadNone && !m.taken[s] && m.ids[s] != kNoId) gone(m.spheres[s]);
-    tell();
-    if (fits) {
-        size_t slot = 0;
-        for (int i : m.unplaced) {
-            while (m.taken[slot]) ++slot;
-            put(slot, static_cast<size_t>(i)), m.taken[slot] = 1;
-        }
-        for (size_t s = 0; s < m.ids.size(); ++s) {
-            if (m.taken[s]) continue;
-            const Vec4 &was = m.spheres[s], &now = spheres[0];
-            changed |= was.x != now.x || was.y != now.y || was.z != now.z || was.w != now.w;
-            m.ids[s] = kNoId, m.spheres[s] = now;
-        }
-        m.meltDirty |= changed;
-        return;
-    }
-    // Embree reads the spheres where they are, so they may only move when it builds anew.
-    const size_t places = Impl::placesFor(n), mostPlaces = Impl::placesFor(static_cast<size_t>(std::max(count, most)));
-    m.spheres.reserve(mostPlaces), m.ids.reserve(mostPlaces), m.taken.reserve(mostPlaces);
-    m.keys.reserve(Impl::tableFor(mostPlaces)), m.slots.reserve(Impl::tableFor(mostPlaces));
-    m.unplaced.reserve(mostPlaces);
-    m.batches.reserve(mostPlaces / kStirBatch + 1);
-    m.stirs.reserve(mostPlaces / kStirBatch + kStirsApart + 2 * m.occluders.size() + 16);
-    m.spheres.resizeRaw(places), m.ids.resizeRaw(places);
-    for (size_t s = 0; s < places; ++s) {
-        m.spheres[s] = spheres[s < n ? s : 0];
-        m.ids[s] = s < n ? ids[s] : kNoId;
-    }
-    m.meltDirty = m.meltAnew = true;
+        if (!m.taken[s]) gone(m.spheres[s]);
+    for (const Stir& batch : m.batches)
+        if (batch.amount > 0) m.stirs.push(batch);
+    m.spheres.resizeRaw(n), m.ids.resizeRaw(n);
+    std::copy(spheres, spheres + n, m.spheres.begin()), std::copy(ids, ids + n, m.ids.begin());
+    m.meltDirty |= changed;
 }
 
 const Array<Stir>& Visibility::stirs() const { return impl_->stirs; }
@@ -516,17 +420,10 @@ void Visibility::clearStirs() { impl_->stirs.clear(); }
 void Visibility::commit() {
     Impl& m = *impl_;
     if (m.collidersDirty) m.commit(m.solidScene), m.collidersDirty = false;
-    if (!m.meltDirty || m.live == 0) return;
+    if (!m.meltDirty) return;
     m.meltDirty = false;
-    if (!m.meltAnew && m.refitsSinceBuild < kRefitsPerBuild) {
-        rtcCommitGeometry(m.melt);
-        m.commit(m.meltScene);
-        ++m.refitsSinceBuild, ++refits_;
-        return;
-    }
-    m.meltAnew = false;
-    m.build();
-    ++rebuilds_;
+    m.tree.build(m.spheres.data(), static_cast<int>(m.spheres.size()));
+    ++meltBuilds_;
 }
 
 uint64_t Visibility::hash(uint64_t h) const {
@@ -537,7 +434,6 @@ uint64_t Visibility::hash(uint64_t h) const {
         h = hashCombine(h, static_cast<uint64_t>(bits[0]) << 32 | bits[1]);
     };
     for (size_t s = 0; s < m.ids.size(); ++s) {
-        if (m.ids[s] == kNoId) continue;
         h = hashCombine(h, m.ids[s]);
         mix(m.spheres[s].x, m.spheres[s].y), mix(m.spheres[s].z, m.spheres[s].w);
     }
@@ -563,34 +459,28 @@ void Visibility::cast(const Ray* rays, int count, bool* blocked) const {
         valid[i] = behind ? 0 : -1;
         open += !behind;
     }
+    for (int i = 0; i < count; ++i) {
+        if (!valid[i]) continue;
+        const Ray& r = rays[i];
+        const Vec3 way = r.surface + r.distance * r.direction - r.raised;
+        if (!m.tree.blocks({r.raised, normalizeOr(way, r.direction), r.skip, length(way)})) continue;
+        blocked[i] = true, valid[i] = 0, --open;
+    }
+    if (open == 0 || !m.anySolid) return;
     RTCRay8 packet;
-    const auto trace = [&](RTCScene scene, bool melt) {
-        for (int i = 0; i < 8; ++i) {
-            const Ray& r = rays[i < count ? i : 0];
-            Vec3 o = r.surface, d = r.direction;
-            float reach = r.distance;
-            if (melt) {
-                const Vec3 way = r.surface + r.distance * r.direction - r.raised;
-                reach = length(way);
-                o = r.raised, d = normalizeOr(way, r.direction);
-            }
-            packet.org_x[i] = o.x, packet.org_y[i] = o.y, packet.org_z[i] = o.z;
-            packet.dir_x[i] = d.x, packet.dir_y[i] = d.y, packet.dir_z[i] = d.z;
-            packet.tnear[i] = melt ? r.skip : 0;
-            packet.tfar[i] = reach;
-            packet.time[i] = 0, packet.mask[i] = ~0u, packet.id[i] = 0, packet.flags[i] = 0;
-            // Embree wants tnear <= tfar: a source within the skipped neighbourhood is in sight.
-            if (!(packet.tfar[i] > packet.tnear[i])) packet.tfar[i] = packet.tnear[i];
-        }
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        rtcOccluded8(valid, scene, &context, &packet);
-        for (int i = 0; i < count; ++i)
-            if (valid[i] && packet.tfar[i] < 0) blocked[i] = true, valid[i] = 0, --open;
-    };
-    if (open > 0 && m.live > 0) trace(m.meltScene, true);
-    if (open > 0 && m.anySolid) trace(m.solidScene, false);
+    for (int i = 0; i < 8; ++i) {
+        const Ray& r = rays[i < count ? i : 0];
+        packet.org_x[i] = r.surface.x, packet.org_y[i] = r.surface.y, packet.org_z[i] = r.surface.z;
+        packet.dir_x[i] = r.direction.x, packet.dir_y[i] = r.direction.y, packet.dir_z[i] = r.direction.z;
+        packet.tnear[i] = 0, packet.tfar[i] = std::max(0.0f, r.distance);
+        packet.time[i] = 0, packet.mask[i] = ~0u, packet.id[i] = 0, packet.flags[i] = 0;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded8(valid, m.solidScene, &context, &packet);
+    for (int i = 0; i < count; ++i)
+        if (valid[i] && packet.tfar[i] < 0) blocked[i] = true;
 }
 
 } // namespace thaw

@@ -26,10 +26,10 @@ struct Stir {
     bool melt;    // rays do not see what of it is nearer than their skip
 };
 
-// Who sees whom: the host's colliders and the melting bodies themselves, in two Embree scenes. The melt is one sphere
-// per exposed particle, kept by refit; meshes of colliders are instances, so that one that moves only gets a new
-// transform (3 us, where building its tree anew takes 9 ms for three of 20,000 triangles). Uses the calling thread
-// only: Embree's commits run in a private arena of one thread, so the host's own use of TBB is left alone.
+// Who sees whom: the host's colliders, in an Embree scene, and the melting bodies themselves, one sphere per exposed
+// particle. Meshes of colliders are instances, so that one that moves only gets a new transform (3 us, where building
+// its tree anew takes 9 ms for three of 20,000 triangles). Uses the calling thread only: Embree's commits run in a
+// private arena of one thread, so the host's own use of TBB is left alone.
 class Visibility {
 public:
     explicit Visibility(Allocator& allocator); // throws std::bad_alloc when Embree cannot start
@@ -38,9 +38,8 @@ public:
     // Takes over the occluders when `version` is not the one of last time. What changed is in stirs().
     void setColliders(const Collider* colliders, int count, uint64_t version);
     // One sphere per exposed particle. ids are distinct; spheres' w is the radius. The order may change from call to
-    // call: an id keeps its place in the tree. `most` is how many there may be one day (0: no more than now): while it
-    // does not grow, only Embree allocates. moved: per sphere, m, its radius when it is new; may be null. What changed
-    // is in stirs().
+    // call. `most` is how many there may be one day (0: no more than now): while it does not grow, nothing is
+    // allocated. moved: per sphere, m, its radius when it is new; may be null. What changed is in stirs().
     void setSpheres(const Vec4* spheres, const uint32_t* ids, int count, int most = 0, float* moved = nullptr);
     // What shades now and did not, or no more, since the calls before. Forgotten by clearStirs().
     const Array<Stir>& stirs() const;
@@ -50,9 +49,8 @@ public:
     // blocked[k] = the way of ray k is not free, for up to 8 rays. May be called from several threads at once.
     void cast(const Ray* rays, int count, bool* blocked) const;
 
-    // How often the tree of the melt was built anew, and refitted; and that of the colliders, and moved within.
-    int rebuilds() const { return rebuilds_; }
-    int refits() const { return refits_; }
+    // How often the tree of the melt was built; and that of the colliders, and moved within.
+    int meltBuilds() const { return meltBuilds_; }
     int colliderBuilds() const { return colliderBuilds_; }
     int colliderMoves() const { return colliderMoves_; }
     // Mixes in the places that the next call compares with.
@@ -61,7 +59,7 @@ public:
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
-    int rebuilds_ = 0, refits_ = 0, colliderBuilds_ = 0, colliderMoves_ = 0;
+    int meltBuilds_ = 0, colliderBuilds_ = 0, colliderMoves_ = 0;
 };
 
 } // namespace thaw
