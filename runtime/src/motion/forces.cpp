@@ -28,6 +28,7 @@ void Motion::forces(const MotionFrame& f) {
             target_[i] = p.velocity[i];
             Vec3 v = p.velocity[i].xyz() + f.dt * f.gravity + image_[i].xyz() -
                      (f.dt * f.invDensity[i] * trait_[i].w) * wallGradient_[i].xyz();
+            if (unlike_) v += pushMirrors(f, i, trait_.data());
             for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c) {
                 const Vec4 k = contact_[c];
                 if (!contactAdhesive_[c] || dot(k.xyz(), down) < -kFloorCosine) continue;

@@ -13,62 +13,6 @@
 namespace thaw {
 namespace {
 
-struct Contact {
-    Vec3 normal;
-    float distance;
-    bool adhesive;
-    uint16_t collider;
-    float bend; // how many particles the layer behind a curved wall has of that before it
-};
-
-// Two layers half a spacing before and behind the face of a ball differ in their areas: without this a ball of 3.75
-// spacings floats as if it were 13 % larger.
-float bendOf(const Collider& c, float spacing) {
-    if (c.type != thawCollider_sphere) return 1;
-    const float inner = std::max(0.0f, c.size.x - 0.5f * spacing) / (c.size.x + 0.5f * spacing);
-    return inner * inner;
-}
-
-// The nearest walls in reach, nearest first; of equals the one with the lower index.
-int findContacts(const WallFinder& walls, const Collider* colliders, Vec3 p, float reach, float spacing,
-                 Contact (&out)[Motion::kContacts]) {
-    int n = 0;
-    walls.forNear(p, reach, [&](float distance, Vec3 normal, const Collider& c) {
-        // What comes near within the sub-step is met now.
-        if (!(distance < reach) && !(c.moves && distance - dot(normal, c.displacement(p)) < reach)) return;
-        const Contact k{normal, distance, c.adhesive, static_cast<uint16_t>(&c - colliders), bendOf(c, spacing)};
-        int at = n < Motion::kContacts ? n++ : n;
-        if (at == Motion::kContacts && !(k.distance < out[--at].distance)) return;
-        for (; at > 0 && k.distance < out[at - 1].distance; --at) out[at] = out[at - 1];
-        out[at] = k;
-    });
-    return n;
-}
-
-// Share of the support inside the walls and its gradient; overlapping walls by the product rule.
-// share: of each wall along its normal.
-void wallFraction(const Contact* c, int n, float h, float& fraction, Vec3& gradient, float* share) {
-    const WallTable& table = wallTable();
-    float f[Motion::kContacts], slope[Motion::kContacts], open = 1;
-    for (int k = 0; k < n; ++k) {
-        const float q = std::max(-1.0f, c[k].distance / h);
-        f[k] = q < 1 ? c[k].bend * WallTable::lookup(table.mirrored, q) : 0;
-        slope[k] = q < 1 ? -c[k].bend * WallTable::lookup(table.mirroredGradient, q) / h : 0;
-        open *= 1 - f[k];
-    }
-    gradient = {};
-    for (int k = 0; k < n; ++k) {
-        share[k] = 0;
-        if (slope[k] == 0) continue;
-        float others = slope[k];
-        for (int l = 0; l < n; ++l)
-            if (l != k) others *= 1 - f[l];
-        gradient += others * c[k].normal;
-        share[k] = others;
-    }
-    fraction = 1 - open;
-}
-
 // The fixed particles around a mover as one smooth wall: distance by how much of the support they fill, normal by how
 // that changes. Single particles leave hollows through which others sink, layer after layer. fixed: of HeldPass.
 Vec4 heldSurface(const Vec4& fixed, float h) {
@@ -88,10 +32,10 @@ bool outside(const Box& b, Vec3 p, float margin) {
 
 Motion::Motion(Allocator& a)
     : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), contactOf_(a), contactSlope_(a),
-      wallVelocity_(a), wallPush_(a), heldVelocity_(a), kick_(a), heldKick_(a), reportSlot_(a), reports_(a), held_(a),
-      landing_(a), landingOn_(a), wallGradient_(a), trait_(a), point_(a), coefficient_(a), wallDrag_(a), inverse_(a),
-      cross_(a), before_(a), residual_(a), direction_(a), image_(a), grip_(a), target_(a), piece_(a), queue_(a),
-      pieceEnd_(a), sums_(a) {}
+      mirror_(a), mirrorChange_(a), wallVelocity_(a), wallPush_(a), heldVelocity_(a), kick_(a), heldKick_(a),
+      reportSlot_(a), reports_(a), held_(a), landing_(a), landingOn_(a), wallGradient_(a), trait_(a), point_(a),
+      coefficient_(a), wallDrag_(a), inverse_(a), cross_(a), before_(a), residual_(a), direction_(a), image_(a),
+      grip_(a), target_(a), piece_(a), queue_(a), pieceEnd_(a), sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
@@ -128,8 +72,8 @@ void Motion::begin(const MotionFrame& f) {
     reporting_ = reporters_ > 0;
     reports_.assign(sums_.size() * reporters_, {});
     if (reporting_) kick_.assign(movers * kContacts, {}), heldKick_.assign(movers, {});
-    if (reporting_ || wallsMove_ || slippery_)
-        contactOf_.resizeRaw(movers * kContacts), contactSlope_.resizeRaw(movers * kContacts);
+    contactOf_.resizeRaw(movers * kContacts);
+    if (reporting_ || wallsMove_) contactSlope_.resizeRaw(movers * kContacts);
     if (wallsMove_) wallVelocity_.resizeRaw(movers * kContacts), wallPush_.resizeRaw(movers);
     heldMoves_ = f.heldSpeed > 0;
     if (heldMoves_) heldVelocity_.resizeRaw(movers);
@@ -137,6 +81,7 @@ void Motion::begin(const MotionFrame& f) {
     // Rows that do not move: what their neighbours read of them. A particle that has just set still carries some
     // pressure, which fades (taken away at once, its neighbours would fall freely for a frame).
     if (bonded_) grip_.assign(movers, {});
+    findUnlike(f);
     const int still = static_cast<int>(rows) - p.moverCount;
     f.tasks.forBlocks(still, 8 * kBlock, [&](int begin, int end, int, int) {
         for (int r = begin; r < end; ++r) {
@@ -155,19 +100,16 @@ void Motion::begin(const MotionFrame& f) {
 
     const float shear = shearMoment(), bulk = bulkStiffness(), fold = pressureFold(f.subSteps) * f.dt;
     const float stepTime = f.dt * static_cast<float>(f.subSteps);
+    // Mirrors of unlike liquids are made of the neighbours' distances: all have to be known first.
+    if (unlike_)
+        f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int block, int) {
+            findWalls(f, begin, end, block);
+            for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r)
+                mirror_[static_cast<size_t>(r)].unlike = unlikeness(f, static_cast<size_t>(r));
+        });
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int block, int) {
         const int last = std::min(8 * end, p.moverCount);
-        Box around;
-        float reach = 0;
-        for (int r = 8 * begin; r < last; ++r) {
-            const Vec4 x = p.position[static_cast<size_t>(r)];
-            around.grow(x.xyz());
-            const float way = f.dt * length(p.velocity[static_cast<size_t>(r)].xyz());
-            reach = std::max({reach, std::max(1.0f, kAdhesionReach / kSupport) * x.w, x.w + way});
-        }
-        WallFinder walls;
-        walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, around, reach);
-
+        if (!unlike_) findWalls(f, begin, end, block);
         if (heldMoves_)
             for (int r = 8 * begin; r < last; ++r) {
                 // As heavy as they weigh in the density: what is near counts most.
@@ -186,7 +128,7 @@ void Motion::begin(const MotionFrame& f) {
                 heldVelocity_[i] = {sum.x, sum.y, sum.z, 0};
             }
         pairHeld({PairLists(f.neighbors), p.position.data(), f.volume, p.moverCount, held_.data()}, begin, end);
-        BlockSums sums;
+        BlockSums& sums = sums_[static_cast<size_t>(block)];
         // Neighbours in memory mostly share material and liquid fraction: the exponential is kept.
         int material = -1;
         float phi = -1, viscosity = 0;
@@ -195,42 +137,12 @@ void Motion::begin(const MotionFrame& f) {
             const Vec3 x = p.position[i].xyz();
             const float h = p.position[i].w, spacing = h / kSupport, density = 1 / f.invDensity[i];
 
-            landing_[i].w = INFINITY;
-            // Without the gravity of this step, which what rests on the wall has too.
-            const Vec3 way = f.dt * p.velocity[i].xyz();
-            const float fast = kLandingFrom * spacing / static_cast<float>(f.subSteps);
-            if (dot(way, way) > fast * fast && !walls.empty())
-                walls.forNear(x, length(way) + spacing, [&](float distance, Vec3 normal, const Collider& c) {
-                    if (c.moves) return; // asks for sub-steps
-                    const float into = -dot(normal, way);
-                    if (!(into > fast && distance - into < 0.5f * spacing)) return;
-                    if (landing_[i].w == INFINITY) sums.b += 1;
-                    if (!(distance < landing_[i].w)) return;
-                    landing_[i] = {normal.x, normal.y, normal.z, distance};
-                    landingOn_[i] = static_cast<uint16_t>(&c - f.colliders);
-                });
-
-            Contact found[kContacts];
-            const float far = std::max(1.0f, kAdhesionReach / kSupport) * h;
-            const int n = walls.empty() ? 0 : findContacts(walls, f.colliders, x, far, spacing, found);
-            contactCount_[i] = static_cast<uint8_t>(n);
-            for (int k = 0; k < n; ++k) {
-                const size_t c = i * kContacts + static_cast<size_t>(k);
-                contact_[c] = {found[k].normal.x, found[k].normal.y, found[k].normal.z, found[k].distance};
-                contactAdhesive_[c] = found[k].adhesive;
-            }
-            piece_[i] = held_[i].w > 0 || (n && found[0].distance < h) ? kLeaning : kUnknown;
+            const int n = contactCount_[i];
+            piece_[i] = held_[i].w > 0 || (n && contact_[i * kContacts].w < h) ? kLeaning : kUnknown;
             held_[i] = heldSurface(held_[i], h);
-            float solid = 0, share[kContacts];
+            float solid = 0;
             Vec3 gradient;
-            if (n) wallFraction(found, n, h, solid, gradient, share);
-            for (int k = 0; k < n && (reporting_ || wallsMove_ || slippery_); ++k) {
-                const size_t c = i * kContacts + static_cast<size_t>(k);
-                contactOf_[c] = found[k].collider, contactSlope_[c] = share[k];
-                if (!wallsMove_) continue;
-                const Vec3 u = f.colliders[found[k].collider].velocityAt(x);
-                wallVelocity_[c] = {u.x, u.y, u.z, 0};
-            }
+            if (n) weighWalls(f, i, solid, gradient);
             const float error = f.neighbors.volumeFraction[i] + solid - 1;
             wallGradient_[i] = {gradient.x, gradient.y, gradient.z, error};
             if (!p.bondSlot[i]) sums.a += std::max(error, 0.0f), sums.c = std::max(sums.c, error);
@@ -272,7 +184,6 @@ void Motion::begin(const MotionFrame& f) {
             const size_t i = static_cast<size_t>(r);
             contactCount_[i] = 0, held_[i] = {0, 0, 0, INFINITY}, wallGradient_[i] = {};
         }
-        sums_[static_cast<size_t>(block)] = sums;
     });
 
     double total = 0, landing = 0;
@@ -282,6 +193,7 @@ void Motion::begin(const MotionFrame& f) {
         stats_.apparentViscosity = std::max(stats_.apparentViscosity, s.d);
     }
     stats_.meanCompression = static_cast<float>(total / p.moverCount);
+    if (unlike_) weighMirrors(f);
     if (landing > 0) land(f);
 }
 

@@ -81,6 +81,17 @@ public:
 private:
     bool touches(size_t i) const { return contactCount_[i] || held_[i].w < INFINITY; }
     void land(const MotionFrame& f);
+    void findWalls(const MotionFrame& f, int begin, int end, int block);
+    void weighWalls(const MotionFrame& f, size_t i, float& fraction, Vec3& gradient);
+    void findUnlike(const MotionFrame& f);
+    template <class F> void forMirrors(const MotionFrame& f, size_t i, F&& body) const;
+    template <class F> void forMirrorPush(const MotionFrame& f, size_t i, F&& body) const;
+    float unlikeness(const MotionFrame& f, size_t i) const;
+    float mirrorDistance(const MotionFrame& f, size_t i, size_t contact) const;
+    void weighMirrors(const MotionFrame& f);
+    void moveMirrors(const MotionFrame& f, int begin, int end);
+    Vec3 pushMirrors(const MotionFrame& f, size_t i, const Vec4* pressure) const;
+    void reportMirrors(const MotionFrame& f, size_t i);
     void holdAtWalls(const MotionFrame& f, size_t i);
     void meetMovingWalls(const MotionFrame& f);
     bool reports(const MotionFrame& f, uint16_t anchor) const;
@@ -120,20 +131,28 @@ private:
     MotionStats stats_;
     size_t reporters_ = 0; // colliders that report
     bool wallsMove_ = false, reporting_ = false, thinWalls_ = false, heldMoves_ = false, slippery_ = false;
+    bool unlike_ = false; // liquids of different densities move
     Array<Box> colliderBounds_;
     Array<Vec4> contact_;            // kContacts per mover: xyz outward normal, w distance in m; nearest first
     Array<uint8_t> contactAdhesive_; // per contact
     Array<uint8_t> contactCount_;    // per mover
     Array<uint16_t> contactOf_;      // per contact: the collider
     Array<float> contactSlope_;      // per contact: its part of the wall gradient along its normal, 1/m
-    Array<Vec4> wallVelocity_;       // per contact, m/s; when walls move
-    Array<Vec4> wallPush_;           // per mover: no-slip block times wall velocity, kg m/s; when walls move
-    Array<Vec4> heldVelocity_;       // per mover: of the fixed particles around it, m/s; when they move
-    Array<Vec4> kick_;               // per contact: what the wall did to the velocity, m/s; when some collider reports
-    Array<Vec4> heldKick_;           // per mover: what clamps at held particles did, m/s; the same
-    Array<int32_t> reportSlot_;      // per collider: its number among those that report, -1: none
-    Array<ImpulseSums> reports_;     // per block and reporting collider
-    Array<Vec4> held_;    // per mover: the surface of the fixed particles around it, like a contact; w inf: none
+    // Of a mover's mirror in its walls: unlike: how much is its neighbours', 0..1; own: what of that it lacks itself;
+    // share: what each neighbour has, by weight.
+    struct Mirror {
+        float unlike, own, share;
+    };
+    Array<Mirror> mirror_;       // per mover; when unlike
+    Array<float> mirrorChange_;  // per mover, of the density error in this iteration; when unlike
+    Array<Vec4> wallVelocity_;   // per contact, m/s; when walls move
+    Array<Vec4> wallPush_;       // per mover: no-slip block times wall velocity, kg m/s; when walls move
+    Array<Vec4> heldVelocity_;   // per mover: of the fixed particles around it, m/s; when they move
+    Array<Vec4> kick_;           // per contact: what the wall did to the velocity, m/s; when some collider reports
+    Array<Vec4> heldKick_;       // per mover: what clamps at held particles did, m/s; the same
+    Array<int32_t> reportSlot_;  // per collider: its number among those that report, -1: none
+    Array<ImpulseSums> reports_; // per block and reporting collider
+    Array<Vec4> held_;           // per mover: the surface of the fixed particles around it, like a contact; w inf: none
     Array<Vec4> landing_; // per mover: the wall that it would run into in this sub-step, like a contact; w inf: none, w
                           // < 0: its piece is landing
     Array<uint16_t> landingOn_; // per mover: the collider of that wall

@@ -61,14 +61,15 @@ struct StrainPass {
 };
 void pairStrain(const StrainPass& p, int begin, int end);
 
-// Jacobi update of the pressure: error_i = (C_i, times feedback when > 0) + dt (wall_i . v_i + sum_j g_ij . (v_i -
-// v_j)), P_i = max(0, P_i + weight error_i stiffness_i); rows with inverse density 0 keep theirs.
+// Jacobi update of the pressure: error_i = (C_i, times feedback when > 0) + change_i + dt (wall_i . v_i + sum_j g_ij .
+// (v_i - v_j)), P_i = max(0, P_i + weight error_i stiffness_i); rows with inverse density 0 keep theirs.
 struct JacobiPass {
     PairLists lists;
     const Vec4* position;
     const Vec4* velocity;
     const Vec4* wall; // xyz gradient of the wall's fraction, w C
     const float* stiffness;
+    const float* change; // or null
     const float* invDensity;
     float dt, feedback, weight;
     float* pressure;

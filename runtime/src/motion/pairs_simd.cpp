@@ -135,7 +135,8 @@ void jacobiGroups(const JacobiPass& p, int begin, int end) {
                 sum = hn::MulAdd(load(p.lists.gradient + s.start + 8 * k), along, sum);
             }
             const F32 fed = hn::Mul(wall.w, hn::IfThenElse(hn::Gt(wall.w, zero()), all(p.feedback), all(1)));
-            const F32 error = hn::MulAdd(all(p.dt), sum, fed);
+            F32 error = hn::MulAdd(all(p.dt), sum, fed);
+            if (p.change) error = hn::Add(error, load(p.change + s.row));
             const F32 old = load(p.pressure + s.row);
             F32 next = hn::MulAdd(hn::Mul(all(p.weight), error), load(p.stiffness + s.row), old);
             next = hn::Max(zero(), next);

@@ -35,14 +35,17 @@ void Motion::pressure(const MotionFrame& f) {
     if (wallsMove_) meetMovingWalls(f);
     for (int iteration = 0; iteration < f.pressureIterations; ++iteration) {
         f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
+            if (unlike_) moveMirrors(f, begin, end);
             pairJacobi({lists, p.position.data(), p.velocity.data(), wallGradient_.data(), p.stiffness.data(),
-                        f.invDensity, f.dt, feedback, weight, p.pressure.data(), point_.data()},
+                        unlike_ ? mirrorChange_.data() : nullptr, f.invDensity, f.dt, feedback, weight,
+                        p.pressure.data(), point_.data()},
                        begin, end);
         });
         f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
             pairPush({lists, point_.data(), wallGradient_.data(), f.invDensity, f.dt, p.velocity.data()}, begin, end);
             for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
                 const size_t i = static_cast<size_t>(r);
+                if (unlike_) p.velocity[i].setXyz(p.velocity[i].xyz() + pushMirrors(f, i, point_.data()));
                 if (gripped(i))
                     p.velocity[i].setXyz(grip_[i].xyz());
                 else if (touches(i))
@@ -60,6 +63,7 @@ void Motion::pressure(const MotionFrame& f) {
             const float push = f.dt * f.invDensity[i] * p.pressure[i];
             for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c)
                 kick(c, -(push * contactSlope_[c]) * contact_[c].xyz());
+            if (unlike_) reportMirrors(f, i);
         }
     });
 }

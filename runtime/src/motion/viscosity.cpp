@@ -46,15 +46,6 @@ void invert(Vec4& diagonal, Vec4& cross) {
 
 } // namespace
 
-// How much of the first layer at a wall is this many spacings from it: of layers a spacing apart these add up to one.
-// The first layer alone takes the drag mu A u / d, which is right for linear shear and for a plug. (The kernel's
-// integral over the wall is 8 % short of it at half a spacing, 28 % at 0.6: films with a yield stress ran 16 %
-// thinner.)
-inline float firstLayer(float d) {
-    const float s = std::clamp((d - 0.8f) / 0.4f, 0.0f, 1.0f);
-    return 1 - s * s * (3 - 2 * s);
-}
-
 // What a wall's no-slip does to a mover, kg. Slip: the velocity is the wall's that far behind it (Navier).
 Motion::WallShear Motion::wallShear(const MotionFrame& f, size_t i, size_t c) const {
     const WallTable& table = wallTable();
