@@ -12,6 +12,8 @@
 
 namespace thaw {
 
+class Rigid;
+
 struct BondFrame {
     Particles& particles;
     const Neighbors& neighbors; // of this step
@@ -22,6 +24,7 @@ struct BondFrame {
     Tasks& tasks;
     float dt; // s, of this step or sub-step
     Vec3 gravity;
+    Rigid* rigid = nullptr; // pieces that move as one, when there are any
 };
 
 struct BondResult {
@@ -74,6 +77,11 @@ public:
     Array<float> stiffness, rest; // per entry of groups that are on: N/m, m; 0: no spring
     Array<uint8_t> groupOn;       // per mover group: some row of it has a slot
 
+    // N/m, of a layer of the solid at this row: as what presses on its surface meets it.
+    float stiffnessOfLayer(const BondFrame& f, uint32_t row) const;
+    // What a rigid piece gives a particle, N, by slot; until the next lay() while it moves.
+    void bear(uint32_t slot, Vec3 force) { borne_[slot] = force; }
+
     // Whether a particle was pressed against a wall in the last solve, by slot.
     uint8_t& pressed(uint32_t slot) { return pressed_[slot]; }
 
@@ -113,7 +121,10 @@ private:
     bool findTouch(const BondFrame& f, uint32_t row) const;
     void gather(const BondFrame& f, int begin, int end, WallFinder& walls) const;
     Vec3 imbalance(const BondFrame& f, uint32_t row) const;
+    float rounding(const BondFrame& f, uint32_t row) const;
     Box hittingPieces(const BondFrame& f) const;
+    bool touchedByPiece(const BondFrame& f, uint32_t row) const;
+    void settlePieces(const BondFrame& f);
     void settle(const BondFrame& f, BondResult& result);
     void weld(const BondFrame& f);
     // Whether a row that is held has a mover in its support: movers come first in its list.
@@ -127,6 +138,7 @@ private:
     uint32_t steps_ = 0;
     Array<Bond> bonds_; // kMost per slot; slot 0 is nobody's
     Array<uint8_t> count_, calm_, pressed_;
+    Array<Vec3> borne_;            // N, by rigid pieces
     Array<float> fill_, fillGoal_; // sum of weight rest^2 / (12 V), 1/m; what it goes to
     Array<uint32_t> rowOf_;        // kNoRow: free
     Array<uint32_t> free_;         // stack

@@ -12,19 +12,9 @@
 namespace thaw {
 namespace {
 
-constexpr float kLongest = 0.9f;                   // of the support: what is farther apart has lost its bond
-constexpr float kFading = 0.15f;                   // of a bond's weight goes per step when it breaks
-constexpr float kMeets = 0.95f, kNextLayer = 1.4f; // of the contact's length
-constexpr float kWeld = 1.3f;                      // spacings: what has flowed bonds with its body again
-
-// Whether what is at d and goes by `way` comes nearer than `near`. A piece goes with the gravity of the step: of all
-// that comes closer to one of its rows, those that it passes at an angle would be drawn to it, and a cube at rest sinks
-// in.
-bool meets(Vec3 d, Vec3 way, float near) {
-    const float along = -dot(d, way), square = dot(way, way);
-    const float share = square > 0 ? std::clamp(along / square, 0.0f, 1.0f) : 0.0f;
-    return length(d + share * way) < kMeets * near;
-}
+constexpr float kLongest = 0.9f; // of the support: what is farther apart has lost its bond
+constexpr float kFading = 0.15f; // of a bond's weight goes per step when it breaks
+constexpr float kWeld = 1.3f;    // spacings: what has flowed bonds with its body again
 
 } // namespace
 
@@ -33,6 +23,11 @@ float Bonds::contactStiffness(const Elastic& a, const Elastic& b, float spacing)
     float modulus = a.modulus + b.modulus;
     if (a.modulus > 0 && b.modulus > 0) modulus = 2 * (a.modulus * b.modulus) / modulus;
     return 0.4f * modulus * spacing * (a.share * b.share);
+}
+
+float Bonds::stiffnessOfLayer(const BondFrame& f, uint32_t row) const {
+    const Elastic own = elastic(f.materials, f.particles, row);
+    return own.modulus * own.share * f.particles.position[row].w / kSupport;
 }
 
 void Bonds::lay(const BondFrame& f) {
@@ -55,6 +50,7 @@ void Bonds::lay(const BondFrame& f) {
             for (int r = 8 * g; r < last; ++r) {
                 const uint32_t i = static_cast<uint32_t>(r), slot = p.bondSlot[i];
                 if (!slot) continue;
+                borne_[slot] = {};
                 const size_t lane = first + (i & 7);
                 const Elastic own = elastic(f.materials, p, i);
                 const Bond* b = bondsOf(slot);
@@ -71,7 +67,8 @@ void Bonds::lay(const BondFrame& f) {
                 for (k = 0; k < width; ++k) {
                     const uint32_t j = nb.entries[lane + 8 * k] >> 4;
                     if (j >= static_cast<uint32_t>(p.count)) break;
-                    if (rest[lane + 8 * k] > 0 || (!p.bondSlot[j] && !(p.flags[j] & kFixed))) continue;
+                    // Pieces: see SoftContacts.
+                    if (rest[lane + 8 * k] > 0 || p.piece[j] || (!p.bondSlot[j] && !(p.flags[j] & kFixed))) continue;
                     const Vec3 d = x.xyz() - p.position[j].xyz();
                     const float spacing = 0.5f * (x.w + p.position[j].w) / kSupport, near = kContact * spacing;
                     const float distance = length(d);
@@ -79,9 +76,6 @@ void Bonds::lay(const BondFrame& f) {
                     const float closing = dot(d, apart) * f.dt;
                     // Of the same body only what is near already: it bends and turns without meeting itself.
                     if (!(distance < near) && (p.body[i] == p.body[j] || !(distance * (distance - near) < -closing)))
-                        continue;
-                    if (p.piece[j] && !(distance < near) &&
-                        (distance > kNextLayer * near || !meets(d, f.dt * apart, near)))
                         continue;
                     Elastic other;
                     if (p.bondSlot[j]) other = elastic(f.materials, p, j);

@@ -6,6 +6,7 @@
 #include "motion/hold.h"
 #include "motion/links.h"
 #include "motion/numbers.h"
+#include "motion/rigid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,7 @@ constexpr float kCalm = 3e-4f;
 constexpr uint8_t kCalmSteps = 30;
 constexpr float kRest = 0.02f, kUnrest = 0.06f;
 constexpr float kHits = 1.5f;      // gravity's velocity of a step: what comes faster wakes what it hits
+constexpr float kTouched = 1.6f;   // spacings, of what moves and a sleeper: it wakes
 constexpr float kLeastGravity = 1; // m/s^2, for that measure where there is none
 // What sleeps among its like is looked at every so many steps while it warms.
 constexpr uint32_t kLookInterval = 4;
@@ -103,7 +105,7 @@ Vec3 Bonds::imbalance(const BondFrame& f, uint32_t row) const {
     const Particles& p = f.particles;
     const Vec4 x = p.position[row];
     const uint32_t slot = p.bondSlot[row];
-    Vec3 force = p.velocity[row].w * f.gravity;
+    Vec3 force = p.velocity[row].w * f.gravity + borne_[slot];
     const Elastic own = elastic(f.materials, p, row);
     const Bond* b = bondsOf(slot);
     for (int k = 0; k < count_[slot]; ++k) {
@@ -118,6 +120,7 @@ Vec3 Bonds::imbalance(const BondFrame& f, uint32_t row) const {
     for (uint32_t k = 0; k < f.neighbors.width[g]; ++k) {
         const uint32_t j = f.neighbors.entries[first + 8 * k] >> 4;
         if (j >= static_cast<uint32_t>(p.count)) break;
+        if (p.piece[j]) continue;
         if (p.bondSlot[j] || (p.flags[j] & kFixed)) {
             const Vec3 d = x.xyz() - p.position[j].xyz();
             const float near = kContact * 0.5f * (x.w + p.position[j].w) / kSupport;
@@ -132,6 +135,13 @@ Vec3 Bonds::imbalance(const BondFrame& f, uint32_t row) const {
         }
     }
     return force;
+}
+
+// What rounding of the positions does to that: a stiff solid far from the origin is never in balance.
+float Bonds::rounding(const BondFrame& f, uint32_t row) const {
+    constexpr float kRounding = 4 * 0x1p-23f;
+    const Vec3 x = f.particles.position[row].xyz();
+    return kRounding * stiffnessOfLayer(f, row) * std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
 }
 
 // Where pieces fly that wake what they hit: faster than what gravity makes of rest in a step. What rolls over onto it
@@ -149,6 +159,67 @@ Box Bonds::hittingPieces(const BondFrame& f) const {
     if (box.empty()) return box;
     const Vec3 margin{support, support, support};
     return {box.lower - margin, box.upper + margin};
+}
+
+// Whether a piece that is awake lies against a row, or comes to it in this step.
+bool Bonds::touchedByPiece(const BondFrame& f, uint32_t row) const {
+    const Particles& p = f.particles;
+    const Vec4 x = p.position[row];
+    bool touched = false;
+    forNeighbors(f.neighbors, static_cast<int>(row), [&](uint32_t j) {
+        if (j >= static_cast<uint32_t>(p.count)) return false;
+        if (!p.piece[j] || f.rigid->pieceOf(p.piece[j]).asleep) return true;
+        const float near = kTouched * 0.5f * (x.w + p.position[j].w) / kSupport;
+        touched = length(x.xyz() - p.position[j].xyz()) - f.dt * length(p.velocity[j].xyz()) < near;
+        return !touched;
+    });
+    return touched;
+}
+
+// Pieces sleep together with all that touches them, in one step, and what wakes takes them along: what wants to sleep
+// under a piece stays awake where something there does not, or pieces would stand on some that sleeps and some that
+// gives way.
+void Bonds::settlePieces(const BondFrame& f) {
+    const Particles& p = f.particles;
+    Array<RigidPiece>& pieces = f.rigid->pieces();
+    const uint32_t movers = static_cast<uint32_t>(p.moverCount), count = static_cast<uint32_t>(p.count);
+    const auto forTouching = [&](bool asleep, auto&& body) { // rows of elastic solids against pieces
+        for (uint32_t j = movers; j < count; ++j) {
+            if (!p.piece[j] || pieces[p.piece[j] - 1u].asleep != asleep) continue;
+            forNeighbors(f.neighbors, static_cast<int>(j), [&](uint32_t i) {
+                if (i >= count) return false;
+                const Vec3 d = p.position[i].xyz() - p.position[j].xyz();
+                const float near = kTouched * 0.5f * (p.position[i].w + p.position[j].w) / kSupport;
+                if (p.bondSlot[i] && dot(d, d) < near * near) body(i, pieces[p.piece[j] - 1u]);
+                return true;
+            });
+        }
+    };
+    forTouching(true, [&](uint32_t i, RigidPiece& b) {
+        if (state_[i] == kWakes) b.asleep = false, b.calm = 0;
+    });
+    for (RigidPiece& b : pieces) b.restless = false;
+    for (uint32_t j = movers; j < count; ++j)
+        if (p.piece[j] && !(length(p.velocity[j].xyz()) * f.dt < kCalm * p.position[j].w / kSupport))
+            pieces[p.piece[j] - 1u].restless = true;
+    for (bool again = true; again;) {
+        again = false;
+        forTouching(false, [&](uint32_t i, RigidPiece& b) {
+            const bool awake = i < movers || state_[i] == kWakes;
+            if (awake && state_[i] != kSleeps && !b.restless) b.restless = again = true;
+        });
+        forTouching(false, [&](uint32_t i, RigidPiece& b) {
+            if (b.restless && state_[i] == kSleeps) state_[i] = kStay, again = true;
+            if (b.restless && (p.flags[i] & kAsleep)) state_[i] = kWakes;
+        });
+    }
+    forTouching(false, [&](uint32_t i, RigidPiece& b) {
+        if (state_[i] == kSleeps) b.drowsy = true;
+    });
+    for (size_t s = 0; s < pieces.size(); ++s) {
+        if (pieces[s].drowsy) f.rigid->layToRest(static_cast<uint16_t>(s + 1));
+        pieces[s].drowsy = false;
+    }
 }
 
 // Sleep and waking of rows that have bonds.
@@ -176,7 +247,7 @@ void Bonds::settle(const BondFrame& f, BondResult& result) {
             walls.forNear(p.position[i].xyz(), near, [&](float d, Vec3 n, const Collider&) {
                 if (d < near && dot(n, force) < 0) force = {};
             });
-            return length(force) / (p.velocity[i].w * weight);
+            return std::max(0.0f, length(force) - rounding(f, i)) / (p.velocity[i].w * weight);
         };
         for (int r = begin; r < end; ++r) {
             const uint32_t i = static_cast<uint32_t>(r), slot = p.bondSlot[i];
@@ -197,7 +268,7 @@ void Bonds::settle(const BondFrame& f, BondResult& result) {
                     (slot + steps_) % kLookInterval == 0 &&
                     (p.liquidFraction[i] > 0 || std::abs(fill_[slot] - fillGoal_[slot]) > 1e-3f * fill_[slot]);
                 if ((due || beside(f, i)) && unbalanced(i) > kUnrest) state_[i] = kWakes;
-                if (nearPieces(p.position[i].xyz())) state_[i] = kWakes;
+                if (nearPieces(p.position[i].xyz()) || (f.rigid && touchedByPiece(f, i))) state_[i] = kWakes;
             } else if (!(p.flags[i] & kFixed)) {
                 const float spacing = p.position[i].w / kSupport;
                 if (calm_[slot] == kNewborn) calm_[slot] = 1;
@@ -212,6 +283,7 @@ void Bonds::settle(const BondFrame& f, BondResult& result) {
             }
         }
     });
+    if (f.rigid) settlePieces(f);
     for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) {
         if (state_[i] == kStay) continue;
         const uint32_t slot = p.bondSlot[i];

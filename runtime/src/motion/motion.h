@@ -36,7 +36,7 @@ struct MotionFrame {
     RigidLiquid* coupling = nullptr; // with rigid
 
     BondFrame bondFrame() const {
-        return {particles, neighbors, volume, materials, colliders, colliderCount, tasks, dt, gravity};
+        return {particles, neighbors, volume, materials, colliders, colliderCount, tasks, dt, gravity, rigid};
     }
 };
 

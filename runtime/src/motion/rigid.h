@@ -11,21 +11,24 @@ namespace thaw {
 // + 1; they are fixed rows to everyone else, with the velocity of the piece at their place.
 struct RigidPiece {
     bool alive = false, asleep = false;
-    bool fresh = false;     // has not moved freely yet: half of gravity in its first step makes free fall exact
-    bool lostRows = false;  // may have fallen apart
-    bool solved = false;    // was an unknown of the last viscosity solve
-    bool carried = false;   // something bore some of it in the step before
-    uint16_t calm = 0;      // steps
-    uint32_t id = 0;        // stable, never reused
-    uint32_t first = 0;     // its rows in Rigid::rows
-    uint32_t rows = 0;      //
-    double mass = 0;        // kg
-    double radius = 0;      // m, from the centre to the farthest corner
-    Double3 center;         // m
-    Double3 velocity, spin; // m/s, rad/s
-    Symmetric3 inertia, inverseInertia; // kg m^2 about the centre, in world axes
-    Double3 linear, angular;            // kg m/s, kg m^2/s: what the liquid did to it in this sub-step
-    Double3 drag, dragSpin;             // m/s, rad/s: what the last viscosity solve changed, its warm start
+    bool fresh = false;    // has not moved freely yet: half of gravity in its first step makes free fall exact
+    bool lostRows = false; // may have fallen apart
+    bool restless = false, drowsy = false; // scratch of Bonds
+    bool solved = false;                   // was an unknown of the last viscosity solve
+    bool carried = false;                  // something bore some of it in the step before
+    bool bedded = false;                   // elastic solids that move did
+    uint16_t calm = 0;                     // steps
+    uint32_t id = 0;                       // stable, never reused
+    uint32_t first = 0;                    // its rows in Rigid::rows
+    uint32_t rows = 0;                     //
+    double mass = 0;                       // kg
+    double radius = 0;                     // m, from the centre to the farthest corner
+    Double3 center;                        // m
+    Double3 velocity, spin;                // m/s, rad/s
+    Symmetric3 inertia, inverseInertia;    // kg m^2 about the centre, in world axes
+    Double3 linear, angular;               // kg m/s, kg m^2/s: what the liquid did to it in this sub-step
+    Double3 pushed;                        // kg m/s: of that, by the contacts of elastic solids
+    Double3 drag, dragSpin;                // m/s, rad/s: what the last viscosity solve changed, its warm start
     Double3 startVelocity, startSpin;
     Double3 load, restLoad; // N: push of other pieces and of liquid; now, and when it fell asleep
     Box bounds;             // m, of its rows
@@ -77,7 +80,8 @@ public:
     void lost(uint16_t piece); // a row left it
     void wake(uint16_t piece) { pieces_[piece - 1u].asleep = false, pieces_[piece - 1u].calm = 0; }
     void wakeAll();
-    bool lostRows() const; // some piece may have fallen apart
+    void layToRest(uint16_t piece); // with the elastic solid under it, which sleeps from now on
+    bool lostRows() const;          // some piece may have fallen apart
     void intact(uint16_t piece) { pieces_[piece - 1u].lostRows = false; }
     // Rows and masses of now; pieces without rows end. After rows changed order or membership.
     void gather(const Particles& p);

@@ -3,7 +3,6 @@
 #include "motion/rigid_liquid.h"
 
 #include "base/kernel.h"
-#include "motion/bond_pass.h"
 #include "motion/pairs.h"
 #include "motion/rigid_numbers.h"
 
@@ -17,31 +16,15 @@ void hand(RigidPiece& b, Double3 impulse, Double3 at) {
     b.linear += impulse, b.angular += cross(at - b.center, impulse);
 }
 
-// The spring of an elastic mover against a row of a piece, as pairSprings has it. impulse: over x.
-bool addSpring(const MotionFrame& f, uint32_t mover, uint32_t row, float r2, float& coefficient, float& impulse) {
-    const uint32_t g = mover >> 3;
-    if (!f.bonds || !f.bonds->groupOn[g]) return false;
-    const size_t first = f.neighbors.first[g] + (mover & 7);
-    for (uint32_t k = f.neighbors.width[g]; k-- > 0;) {
-        const size_t entry = first + 8 * static_cast<size_t>(k);
-        if (f.neighbors.entries[entry] >> 4 != row) continue;
-        const float stiff = f.bonds->stiffness[entry], rest = f.bonds->rest[entry];
-        const float r = std::sqrt(std::max(r2, 1e-20f));
-        coefficient += f.dt * f.dt * stiff / (r * r);
-        impulse += f.dt * stiff * std::min(rest - r, kMostPress * rest) / r;
-        return stiff > 0;
-    }
-    return false;
-}
-
 } // namespace
 
-RigidLiquid::RigidLiquid(Allocator& a) : pairs_(a), near_(a), nearOf_(a), eased_(a), unknowns_(a), group_(a) {}
+RigidLiquid::RigidLiquid(Allocator& a)
+    : pairs_(a), near_(a), nearOf_(a), eased_(a), unknowns_(a), group_(a), soft_(a) {}
 
-void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback, Vec4* wall) {
+void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, const Vec4* moverStart, float feedback, Vec4* wall) {
     const Particles& p = f.particles;
     rigid_ = f.rigid;
-    pairs_.clear(), near_.clear(), unknowns_.clear();
+    pairs_.clear(), near_.clear(), unknowns_.clear(), soft_.clear();
     Array<RigidPiece>& pieces = rigid_->pieces();
     const uint32_t movers = static_cast<uint32_t>(p.moverCount);
     const float weight = 10 * latticeSum() * f.dt;
@@ -49,7 +32,6 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback
         RigidPiece& b = pieces[slot];
         if (!b.alive) continue;
         const size_t firstPair = pairs_.size();
-        bool springs = false;
         const uint32_t* rows = rigid_->rowsOf(b);
         for (uint32_t k = 0; k < b.rows; ++k) {
             const uint32_t j = rows[k], g = j >> 3, lane = j & 7;
@@ -65,8 +47,8 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback
                 const float gradient = f.volume[j] * f.neighbors.gradient[at];
                 const float r2 = dot(x, x), h = 0.5f * (xi.w + xj.w);
                 const float push = -f.dt * gradient;
-                float coefficient = -weight * ti.x * gradient / (0.01f * h * h + r2), impulse = push * (ti.w + tj.w);
-                if (p.bondSlot[i]) springs |= addSpring(f, i, j, r2, coefficient, impulse);
+                const float coefficient = -weight * ti.x * gradient / (0.01f * h * h + r2);
+                float impulse = push * (ti.w + tj.w);
                 pairs_.push({i, j, slot, x, coefficient, push});
                 const float r = std::sqrt(r2), d = h / kSupport;
                 if (d < r && r < h) {
@@ -77,7 +59,7 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback
         }
         if (pairs_.size() == firstPair || b.asleep) continue;
         Unknown u{};
-        u.slot = slot, u.firstPair = firstPair, u.endPair = pairs_.size(), u.springs = springs;
+        u.slot = slot, u.firstPair = firstPair, u.endPair = pairs_.size();
         unknowns_.push(u);
     }
     if (pairs_.empty()) return;
@@ -107,6 +89,15 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, float feedback
             }
         }
         for (float& share : n.share) share = all > 0 ? share / all : 0;
+    }
+    if (f.bonds && f.bonds->any()) {
+        soft_.begin(movers);
+        for (const Near& n : near_)
+            if (p.bondSlot[n.mover]) soft_.add(f, n.mover);
+        soft_.decide(f, moverStart, p.velocity.data());
+        for (const SoftContacts::Contact& c : soft_.all())
+            if (c.state != SoftContacts::Contact::kOpen)
+                for (Unknown& u : unknowns_) u.springs |= u.slot == c.slot;
     }
     // Beside a free piece the whole share makes it oscillate and blow up within a second.
     for (const Unknown& u : unknowns_)
@@ -148,6 +139,17 @@ void RigidLiquid::factorise(const MotionFrame& f, Unknown& u) {
         const double g[6] = {x.x, x.y, x.z, t.x, t.y, t.z};
         for (int r = 0; r < 6; ++r)
             for (int c = 0; c <= r; ++c) a[r][c] += static_cast<double>(q.coefficient) * g[r] * g[c];
+    }
+    for (const SoftContacts::Contact& c : soft_.all()) {
+        if (c.slot != u.slot || c.state == SoftContacts::Contact::kOpen) continue;
+        const Double3 arm = wide(f.particles.position[c.row].xyz()) - b.center;
+        const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        for (int d = 0; d < 6; ++d) {
+            const Vec3 way = d < 3 ? unit[d] : narrow(cross(wide(unit[d - 3]), arm));
+            const Double3 j = wide(c.drag(f.dt, way)), t = cross(arm, j);
+            const double column[6] = {j.x, j.y, j.z, t.x, t.y, t.z};
+            for (int r = d; r < 6; ++r) a[r][d] += column[r];
+        }
     }
     thaw::factorise(a); // positive, for the piece has mass
 }
@@ -203,6 +205,24 @@ void RigidLiquid::addDrag(const MotionFrame& f, const Unknown& u, const Vec4* ve
         sum.linear += impulse;
         sum.angular += cross(wide(f.particles.position[q.row].xyz()) - center, impulse);
     }
+    for (const SoftContacts::Contact& c : soft_.all()) {
+        if (c.slot != u.slot) continue;
+        const Vec3 v = velocity[c.row].xyz() - velocity[c.mover].xyz();
+        const Double3 impulse = wide(sign * c.drag(f.dt, v));
+        sum.linear += impulse;
+        sum.angular += cross(wide(f.particles.position[c.row].xyz()) - center, impulse);
+    }
+}
+
+// What contacts of elastic solids give a piece beside their drag.
+void RigidLiquid::addPush(const MotionFrame& f, const Unknown& u, Six& sum) const {
+    const Double3 center = rigid_->pieces()[u.slot].center;
+    for (const SoftContacts::Contact& c : soft_.all()) {
+        if (c.slot != u.slot) continue;
+        const Double3 impulse = wide(c.push(f.dt));
+        sum.linear -= impulse;
+        sum.angular -= cross(wide(f.particles.position[c.row].xyz()) - center, impulse);
+    }
 }
 
 // Residual and first direction; the movers' velocities are their start already.
@@ -214,6 +234,7 @@ Dots RigidLiquid::start(const MotionFrame& f, Vec4* direction) {
         factorise(f, u);
         u.residual = massTimes(b, {u.before.linear - value.linear, u.before.angular - value.angular});
         addDrag(f, u, velocity, -1, u.residual);
+        addPush(f, u, u.residual);
     }
     const Dots dots = measure();
     for (Unknown& u : unknowns_) u.direction = u.z, spread(f, u, u.direction, direction);
@@ -269,6 +290,10 @@ void RigidLiquid::show(const MotionFrame& f) {
     }
 }
 
+bool RigidLiquid::decideSoft(const MotionFrame& f) {
+    return soft_.any() && soft_.decide(f, f.particles.velocity.data(), f.particles.velocity.data());
+}
+
 // What the solve changed is an impulse; what sleeps gets its pairs', by the velocities that came out.
 void RigidLiquid::finish(const MotionFrame& f, bool sound) {
     const Particles& p = f.particles;
@@ -293,6 +318,16 @@ void RigidLiquid::finish(const MotionFrame& f, bool sound) {
         const float along = dot(p.velocity[q.mover].xyz() - p.velocity[q.row].xyz(), q.x);
         hand(b, static_cast<double>(q.coefficient * along) * wide(q.x), wide(p.position[q.row].xyz()));
     }
+    const Vec4* velocity = p.velocity.data();
+    for (const SoftContacts::Contact& c : soft_.all()) {
+        if (c.state == SoftContacts::Contact::kOpen) continue;
+        RigidPiece& b = pieces[c.slot];
+        const Vec3 v = velocity[c.mover].xyz() - velocity[c.row].xyz();
+        const Double3 impulse = wide(c.drag(f.dt, v) - c.push(f.dt));
+        b.bedded = true, b.pushed += impulse;
+        if (!b.solved) hand(b, impulse, wide(p.position[c.row].xyz()));
+    }
+    if (soft_.any()) soft_.keep(f, velocity);
 }
 
 void RigidLiquid::press(const MotionFrame& f, const Vec4* point) {

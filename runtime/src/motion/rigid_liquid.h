@@ -4,6 +4,7 @@
 
 #include "motion/pairs.h"
 #include "motion/rigid.h"
+#include "motion/soft_contacts.h"
 
 namespace thaw {
 
@@ -31,7 +32,7 @@ public:
     };
     struct Unknown {
         uint32_t slot;
-        bool springs; // of elastic solids push it
+        bool springs; // elastic solids push it
         bool visited; // by the search of what floats
         size_t firstPair, endPair;
         Six before, residual, direction, image, z;
@@ -39,8 +40,8 @@ public:
     };
 
     // After the forces: finds the pairs, and hands over what pressure and cohesion did. trait: see Motion. wall: its
-    // density error in w is fed back less beside a free piece.
-    void gather(const MotionFrame& f, const Vec4* trait, float feedback, Vec4* wall);
+    // density error in w is fed back less beside a free piece. moverStart: velocities before the sub-step.
+    void gather(const MotionFrame& f, const Vec4* trait, const Vec4* moverStart, float feedback, Vec4* wall);
     bool any() const { return !pairs_.empty(); }
     Near* near(size_t mover) { return pairs_.empty() || !nearOf_[mover] ? nullptr : &near_[nearOf_[mover] - 1]; }
     // The unknown of a piece that swims; null for what is held, carried or asleep.
@@ -60,6 +61,11 @@ public:
     void turn(const MotionFrame& f, double keep, Vec4* direction);
     void show(const MotionFrame& f); // gives the rows the velocities that the iterations have come to
     void finish(const MotionFrame& f, bool sound);
+    // Contacts of elastic solids: between two rounds of the solve, which of them push, stick and slip; true when that
+    // changed something. Of a mover; null for most.
+    bool decideSoft(const MotionFrame& f);
+    const SoftContacts::Contact* softOf(size_t mover) const { return soft_.of(mover); }
+    uint64_t hash(uint64_t h) const { return soft_.hash(h); }
 
     void press(const MotionFrame& f, const Vec4* point); // after a pressure iteration; w: its change, Pa
     void pushSwept(const MotionFrame& f);                // gives the pieces what stopping fast movers took
@@ -77,6 +83,7 @@ private:
     void factorise(const MotionFrame& f, Unknown& u);
     static Six precondition(const Unknown& u);
     void addDrag(const MotionFrame& f, const Unknown& u, const Vec4* velocity, float sign, Six& sum) const;
+    void addPush(const MotionFrame& f, const Unknown& u, Six& sum) const;
     Dots measure();
     void spread(const MotionFrame& f, const Unknown& u, const Six& v, Vec4* rows) const;
 
@@ -87,6 +94,7 @@ private:
     Array<uint8_t> eased_;   // per mover: its density error is fed back less
     Array<Unknown> unknowns_;
     Array<uint32_t> group_;
+    SoftContacts soft_;
 };
 
 } // namespace thaw

@@ -56,7 +56,8 @@ void Rigid::begin(const MotionFrame& f) {
         colliderBounds_[static_cast<size_t>(c)] = f.colliders[c].sweptBounds();
         if (f.colliders[c].moves) wakeNear(f.colliders[c], f.spacing);
     }
-    for (RigidPiece& b : pieces_) b.startVelocity = b.velocity, b.startSpin = b.spin, b.linear = b.angular = {};
+    for (RigidPiece& b : pieces_)
+        b.startVelocity = b.velocity, b.startSpin = b.spin, b.linear = b.angular = b.pushed = {}, b.bedded = false;
     loadsBefore_.swap(loads_);
     kick(f);
     findContacts(f);
@@ -256,7 +257,7 @@ void Rigid::integrate(const MotionFrame& f, uint32_t slot) {
 
 void Rigid::rest(const MotionFrame& f) {
     const double dt = f.dt;
-    for (RigidPiece& b : pieces_) b.load = (1 / dt) * b.linear, b.carried = false;
+    for (RigidPiece& b : pieces_) b.load = (1 / dt) * (b.linear - b.pushed), b.carried = false;
     for (const Load& l : loads_) {
         pieces_[l.a].carried = true;
         if (l.other >= RigidContact::kHeld) continue;
@@ -270,12 +271,17 @@ void Rigid::rest(const MotionFrame& f) {
             if (length(b.load - b.restLoad) > kWakeShare * b.mass * weight) b.asleep = false, b.calm = 0;
             continue;
         }
+        if (b.bedded) continue; // Bonds says when
         b.calm = b.reach() < kCalmSpeed && b.carried ? static_cast<uint16_t>(b.calm + 1) : uint16_t{0};
-        if (b.calm < kCalmSteps) continue;
-        b.asleep = true, b.calm = 0;
-        b.velocity = b.spin = b.drag = b.dragSpin = {};
-        b.restLoad = b.load;
+        if (b.calm >= kCalmSteps) layToRest(static_cast<uint16_t>(&b - pieces_.data() + 1));
     }
+}
+
+void Rigid::layToRest(uint16_t piece) {
+    RigidPiece& b = pieces_[piece - 1u];
+    b.asleep = true, b.calm = 0;
+    b.velocity = b.spin = b.drag = b.dragSpin = {};
+    b.restLoad = b.load;
 }
 
 } // namespace thaw

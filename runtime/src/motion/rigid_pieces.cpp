@@ -189,7 +189,7 @@ uint64_t Rigid::hash(uint64_t h) const {
         if (!b.alive) continue;
         const uint64_t flags = static_cast<uint64_t>(b.asleep) | static_cast<uint64_t>(b.fresh) << 1 |
                                static_cast<uint64_t>(b.lostRows) << 2 | static_cast<uint64_t>(b.carried) << 3 |
-                               static_cast<uint64_t>(b.calm) << 8;
+                               static_cast<uint64_t>(b.bedded) << 4 | static_cast<uint64_t>(b.calm) << 8;
         h = hashCombine(hashCombine(h, flags), b.id);
         add3(b.center), add3(b.velocity), add3(b.spin), add3(b.restLoad), add3(b.load);
         add3(b.drag), add3(b.dragSpin);

@@ -74,7 +74,13 @@ void Motion::applyViscosity(const MotionFrame& f, const Vec4* velocity, int begi
                                                 b.y * v.x + b.z * v.y + a.z * v.z});
     }
     for (int r = last; r < 8 * end; ++r) image_[static_cast<size_t>(r)] = {};
-    if (!bonded_ || !walls) return;
+    if (!bonded_) return;
+    for (int r = 8 * begin; r < last && f.coupling; ++r) {
+        const size_t i = static_cast<size_t>(r);
+        if (const SoftContacts::Contact* c = f.coupling->softOf(i))
+            image_[i].setXyz(image_[i].xyz() + c->drag(f.dt, velocity[i].xyz() - velocity[c->row].xyz()));
+    }
+    if (!walls) return;
     for (int r = 8 * begin; r < last; ++r)
         if (grip_[static_cast<size_t>(r)].w > 0) image_[static_cast<size_t>(r)] = {};
 }
@@ -170,6 +176,12 @@ void Motion::viscosity(const MotionFrame& f) {
                 if (wallsMove_) wallPush_[i] = {push.x, push.y, push.z, 0};
                 diagonal.setXyz(diagonal.xyz() + a.xyz()), cross.setXyz(cross.xyz() + b.xyz());
             }
+            if (bonded_ && f.coupling)
+                if (const SoftContacts::Contact* c = f.coupling->softOf(i)) {
+                    const Vec3 x = c->drag(f.dt, {1, 0, 0}), y = c->drag(f.dt, {0, 1, 0}), z = c->drag(f.dt, {0, 0, 1});
+                    diagonal.setXyz(diagonal.xyz() + Vec3{x.x, y.y, z.z});
+                    cross.setXyz(cross.xyz() + Vec3{x.y, x.z, y.z});
+                }
             invert(diagonal, cross);
             inverse_[i] = diagonal, cross_[i] = cross;
             before_[i] = p.velocity[i];
@@ -200,6 +212,8 @@ void Motion::viscosity(const MotionFrame& f) {
                 const size_t i = static_cast<size_t>(r);
                 Vec3 res = trait_[i].z * before_[i].xyz() - image_[i].xyz();
                 if (wallsMove_ && contactCount_[i]) res += wallPush_[i].xyz();
+                if (bonded_ && f.coupling)
+                    if (const SoftContacts::Contact* c = f.coupling->softOf(i)) res += c->push(f.dt);
                 residual_[i] = {res.x, res.y, res.z, 0};
             }
         });
@@ -214,10 +228,11 @@ void Motion::viscosity(const MotionFrame& f) {
                 if (piece_[i] == kAfloat) piece_[i] = kUnknown;
         }
         if (pieces && round > 0) pieces->show(f);
+        const bool touches = pieces && pieces->decideSoft(f);
         findResidual();
         if (bonded_) {
             const bool changed = regrip(f);
-            if (round > 0 && !changed) break;
+            if (round > 0 && !changed && !touches) break;
             if (changed) findResidual();
             forMovers([&](int begin, int, int last, BlockSums&) {
                 for (int r = 8 * begin; r < last; ++r)

@@ -445,7 +445,8 @@ BondFrame World::bondFrame(float dt) {
             static_cast<int>(colliders.size()),
             tasks,
             dt,
-            {def.gravity.x, def.gravity.y, def.gravity.z}};
+            {def.gravity.x, def.gravity.y, def.gravity.z},
+            rigid_.any() ? &rigid_ : nullptr};
 }
 
 bool World::anySoft() const {
@@ -840,7 +841,7 @@ uint64_t World::stateHash() const {
             bytes(v, sizeof v);
         }
     }
-    return heat_.hash(rigid_.hash(bonds_.hash(h)));
+    return heat_.hash(rigidLiquid_.hash(rigid_.hash(bonds_.hash(h))));
 }
 
 thawLedger World::ledger() const {

@@ -46,6 +46,7 @@ CaseList materialCases();
 CaseList impactCases();
 CaseList filmCases();
 CaseList softCases();
+CaseList softContactCases();
 CaseList rigidCases();
 CaseList pieceCases();
 CaseList conductionCases();
