@@ -38,6 +38,7 @@ struct HeatFixture {
     uint64_t surfaceVersion = 0;
     const thawRaySystem* rays = nullptr;
     bool undercools = false;
+    int bodyCount = 0;
     HeatStats total;
     int exposed = 0;
 
@@ -143,7 +144,8 @@ struct HeatFixture {
                 raysPerSource,
                 surfaceVersion,
                 rays,
-                undercools};
+                undercools,
+                bodyCount};
     }
     enum Stage { kRadiation = 1, kConduction = 2, kLoss = 4, kAll = 7 };
     void step(double dt, int stages = kAll) {

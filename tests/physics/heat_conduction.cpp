@@ -216,3 +216,52 @@ TEST_CASE("heat: a hot spot never leaves its neighbours colder than before, arou
         }
     }
 }
+
+TEST_CASE("heat: bodies of one temperature sleep, whom something warmer touches does not") {
+    // Two bodies that touch, of which one is warmer; one alone that is warm inside; one alone that is not.
+    const auto bodyOf = [](Vec3 x) {
+        return static_cast<uint16_t>(x.x < 0.05f ? 0 : x.x < 0.2f ? 1 : x.x < 0.4f ? 2 : 3);
+    };
+    std::vector<double> apart;
+    for (const int told : {0, 4}) {
+        HeatFixture f(0.01f);
+        f.bodyCount = told;
+        f.addBlock({0, 0, 0}, 5, 5, 5, [](Vec3) { return 300.0f; });
+        f.addBlock({0.05f, 0, 0}, 5, 5, 5, [](Vec3) { return 310.0f; });
+        f.addBlock({0.3f, 0, 0}, 5, 5, 5, [](Vec3 x) { return 300.0f + 10 * x.x; });
+        f.addBlock({0.5f, 0, 0}, 5, 5, 5, [](Vec3) { return 305.0f; });
+        f.build();
+        const auto mark = [&] {
+            for (size_t i = 0; i < f.size(); ++i) f.particles.body[i] = bodyOf(f.particles.position[i].xyz());
+        };
+        mark();
+        const double before = f.energy();
+        const std::vector<double> start = f.enthalpies();
+        for (int k = 0; k < 50; ++k) f.step(5, HeatFixture::kConduction);
+        CHECK(f.heat.stats().sleeping == (told ? 125 : 0));
+        CHECK(f.energy() == doctest::Approx(before).epsilon(1e-12));
+        const std::vector<double> h = f.enthalpies();
+        if (told == 0) {
+            apart = h;
+            continue;
+        }
+        for (size_t id = 0; id < h.size(); ++id) {
+            if (id >= 375) REQUIRE(h[id] == start[id]);
+            REQUIRE(h[id] == doctest::Approx(apart[id]).epsilon(1e-9));
+        }
+        CHECK(std::abs(h[0] - start[0]) > 10);
+        CHECK(std::abs(h[250] - start[250]) > 10);
+        // A wall that is warmer wakes it, and so does a thousandth of a degree and more within.
+        Collider wall = box({0.525f, -0.1f, 0.025f}, {0.05f, 0.1f, 0.05f});
+        wall.temperature = 306;
+        f.colliders = {wall};
+        f.step(5, HeatFixture::kConduction);
+        CHECK(f.heat.stats().sleeping == 0);
+        CHECK(f.total.contact > 0);
+        f.colliders.clear();
+        for (size_t i = 0; i < f.size(); ++i) f.setTemperature(i, i == 0 ? 305.01f : 305.0f);
+        const uint16_t warm = f.particles.body[0];
+        f.step(1e-3, HeatFixture::kConduction);
+        CHECK(f.heat.stats().sleeping == (warm < 2 ? 250 : 375));
+    }
+}

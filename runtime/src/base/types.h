@@ -61,6 +61,10 @@ struct Box {
         upper = {p.x > upper.x ? p.x : upper.x, p.y > upper.y ? p.y : upper.y, p.z > upper.z ? p.z : upper.z};
     }
     bool empty() const { return !(lower.x <= upper.x); }
+    bool overlaps(const Box& o) const {
+        return lower.x <= o.upper.x && o.lower.x <= upper.x && lower.y <= o.upper.y && o.lower.y <= upper.y &&
+               lower.z <= o.upper.z && o.lower.z <= upper.z;
+    }
 };
 
 } // namespace thaw

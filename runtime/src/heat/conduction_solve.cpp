@@ -29,6 +29,11 @@ constexpr int kImplicitIterations = 30;
 constexpr int kLeastIterations = 8;
 constexpr double kImplicitTolerance = 1e-3;
 
+// Below this difference, temperatures count as equal: what is so throughout a body and what it touches, sleeps.
+constexpr float kEqualTemperature = 1e-3f; // K
+constexpr int kBodyBlock = 4096;           // rows, for which every body has an extent
+constexpr int kMostExtents = 1 << 16;      // of all blocks and bodies; beyond, nobody sleeps
+
 double leastHeat(const Material& m) {
     return std::min(static_cast<double>(m.def.specificHeatSolid), static_cast<double>(m.def.specificHeatLiquid));
 }
@@ -49,12 +54,66 @@ void Conduction::fillState(const HeatFrame& f) {
             // Over ambient, so that what matters keeps its digits in float.
             const bool unseeded = p.flags[k] & kUnseeded;
             state[k].x = static_cast<float>(m.kelvin(p.enthalpy[k], unseeded) - static_cast<double>(f.ambient));
+            if (sleepers > 0 && asleep[p.body[k]]) continue; // conducts nothing
             state[k].y = m.conductivity(m.liquidFraction(p.enthalpy[k], unseeded));
             const float share = f.neighbors.volumeFraction[k] / (walls ? walls[k].covered : 1.0f);
             const float filled = std::clamp(share, 0.4f, 1.25f);
             state[k].z = 0.5f / filled * (1 + kBare * (1 - filled));
         }
     });
+}
+
+// Whose body has one temperature, and so have all whose boxes reach into its own. Such rows conduct nothing, in both
+// directions alike: the pairs stay antisymmetric, the ledger exact.
+void Conduction::findSleepers(const HeatFrame& f) {
+    const Particles& p = f.particles;
+    sleepers = 0;
+    const int blocks = Tasks::blockCount(p.count, kBodyBlock);
+    if (f.bodyCount < 2 || static_cast<int64_t>(blocks) * f.bodyCount > kMostExtents) return;
+    const size_t bodies = static_cast<size_t>(f.bodyCount);
+    extents.assign(static_cast<size_t>(blocks) * bodies, Extent{});
+    f.tasks.forBlocks(p.count, kBodyBlock, [&](int begin, int end, int block, int) {
+        Extent* const of = &extents[static_cast<size_t>(block) * bodies];
+        for (int i = begin; i < end; ++i) {
+            const size_t k = static_cast<size_t>(i);
+            Extent& e = of[p.body[k]];
+            const Vec4 x = p.position[k];
+            const Vec3 reach = {0.5f * x.w, 0.5f * x.w, 0.5f * x.w};
+            e.box.grow(x.xyz() - reach), e.box.grow(x.xyz() + reach);
+            e.low = std::min(e.low, state[k].x), e.high = std::max(e.high, state[k].x);
+            if (!walls || walls[k].conductance == 0) continue;
+            const float wall = walls[k].temperature - f.ambient;
+            e.low = std::min(e.low, wall), e.high = std::max(e.high, wall);
+        }
+    });
+    for (size_t at = bodies; at < extents.size(); ++at) {
+        Extent &all = extents[at % bodies], &e = extents[at];
+        if (e.low > e.high) continue;
+        all.box.grow(e.box.lower), all.box.grow(e.box.upper);
+        all.low = std::min(all.low, e.low), all.high = std::max(all.high, e.high);
+    }
+    asleep.assign(bodies, uint8_t{1});
+    bool any = false;
+    for (size_t a = 0; a < bodies; ++a) {
+        const Extent& x = extents[a];
+        for (size_t b = 0; b < bodies && asleep[a]; ++b) {
+            const Extent& y = extents[b];
+            if (y.low > y.high || (a != b && !x.box.overlaps(y.box))) continue;
+            asleep[a] = std::max(x.high, y.high) - std::min(x.low, y.low) <= kEqualTemperature;
+        }
+        any |= asleep[a] && x.low <= x.high;
+    }
+    if (!any) return;
+    groupAsleep.resizeRaw(static_cast<size_t>(f.neighbors.groupCount));
+    for (size_t g = 0; g < groupAsleep.size(); ++g) {
+        uint8_t all = 1;
+        for (size_t k = 8 * g; k < std::min(8 * g + 8, static_cast<size_t>(p.count)); ++k) {
+            const uint8_t sleeps = asleep[p.body[k]];
+            if (sleeps) state[k].y = 0, ++sleepers;
+            all = all & sleeps;
+        }
+        groupAsleep[g] = all;
+    }
 }
 
 void Conduction::pairPass(const HeatFrame& f, bool weights) {
@@ -66,8 +125,18 @@ void Conduction::pairPass(const HeatFrame& f, bool weights) {
                               state.data(),
                               flow.data(),
                               weights ? weight.data() : nullptr};
-    f.tasks.forBlocks(n.groupCount, kGroupBlock,
-                      [&](int begin, int end, int, int) { conductionPass(pass, begin, end); });
+    f.tasks.forBlocks(n.groupCount, kGroupBlock, [&](int begin, int end, int, int) {
+        if (sleepers == 0) return conductionPass(pass, begin, end);
+        for (int g = begin; g < end;) {
+            const int from = g;
+            while (g < end && !groupAsleep[static_cast<size_t>(g)]) ++g;
+            if (g > from) conductionPass(pass, from, g);
+            for (; g < end && groupAsleep[static_cast<size_t>(g)]; ++g) {
+                std::fill_n(flow.data() + 8 * g, 8, 0.0f);
+                if (weights) std::fill_n(weight.data() + 8 * g, 8, 0.0f);
+            }
+        }
+    });
 }
 
 // row(i, sums) adds to its block's sums; they are added up in the order of blocks.
@@ -216,8 +285,9 @@ double Conduction::run(const HeatFrame& f, const WallContact* wallContacts) {
     wanted = done = 0;
     if (f.particles.count == 0 || !(f.dt > 0)) return 0;
     walls = wallContacts;
-    done = 1;
+    done = 1, sleepers = 0;
     fillState(f);
+    findSleepers(f);
     pairPass(f, true);
     const double needed = std::ceil(f.dt * fastest(f) / kExplicit);
     wanted = static_cast<int>(std::clamp(needed, 1.0, 1e6));

@@ -44,12 +44,14 @@ struct HeatFrame {
     uint64_t surfaceVersion;   // changes with the rows, their places and normals; 0: not known
     const thawRaySystem* rays; // the host's, or null
     bool undercools = false;   // some material does
+    int bodyCount = 0;         // of which some may be gone; 0: bodies are not told apart
 };
 
 struct HeatStats {
     double absorbed = 0, contact = 0;  // J in this step, from sources and from walls
     double emitted = 0, convected = 0; // J, losses
     int rays = 0;
+    int sleeping = 0;                 // rows that conduction left out
     int cyclesWanted = 0, passes = 0; // of conduction over all pairs: explicitly needed, done
     bool raysReduced = false;
 };

@@ -161,6 +161,7 @@ void Heat::conduction(const HeatFrame& f) {
     m.begin(stats_);
     stats_.contact += m.conduction.run(f, m.contact.find(f));
     stats_.cyclesWanted += m.conduction.cyclesWanted(), stats_.passes += m.conduction.passes();
+    stats_.sleeping = m.conduction.sleeping();
 }
 
 void Heat::loss(const HeatFrame& f) {

@@ -473,7 +473,8 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
             work.raysPerSource,
             surfaceVersion_,
             &def.rays,
-            std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.def.undercooling > 0; })};
+            std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.def.undercooling > 0; }),
+            static_cast<int>(bodies.size())};
 }
 
 HoldFrame World::holdFrame(float dt, bool relabel) {
