@@ -64,14 +64,22 @@ struct Part {
     int material = 0;    // index into Scene::materials
 };
 
+// Of a body that is there; NaN leaves what it has.
+struct Paint {
+    thawBrush brush{{0, 0, 0}, 0.01f, 0}; // in the world
+    float temperature = NAN;              // K, range 0..1e5
+    float absorptivity = NAN;             // 1, range 0..1
+};
+
 struct Body {
     std::string name;
     Shape shape; // not a plane
     Placement placement;
-    int material = 0;        // index into Scene::materials
-    float temperature = NAN; // K, range 100..10000; NaN: ambient
-    std::vector<Part> parts; // at most 64, later ones count where they overlap
-    bool anchored = true;    // stuck to the collider that it touches; false: stands free
+    int material = 0;         // index into Scene::materials
+    float temperature = NAN;  // K, range 100..10000; NaN: ambient
+    std::vector<Part> parts;  // at most 64, later ones count where they overlap
+    bool anchored = true;     // stuck to the collider that it touches; false: stands free
+    std::vector<Paint> paint; // at most 64, one after the other
 };
 
 struct Collider {

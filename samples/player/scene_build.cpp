@@ -218,6 +218,14 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
         thawMeshReport report{};
         const thawResult result = thawCreateBody(raw, &d, &id, &report);
         if (result != thawResult_ok) refused(scene, placeOf("bodies", i), result, raw);
+        for (const Paint& paint : b.paint) {
+            thawResult painted = thawResult_ok;
+            if (!std::isnan(paint.temperature))
+                painted = thawBody_PaintTemperature(raw, id, &paint.brush, paint.temperature, nullptr);
+            if (painted == thawResult_ok && !std::isnan(paint.absorptivity))
+                painted = thawBody_PaintAbsorptivity(raw, id, &paint.brush, paint.absorptivity, nullptr);
+            if (painted != thawResult_ok) refused(scene, placeOf("bodies", i), painted, raw);
+        }
         out.bodies.push_back(id);
         out.bodyReports.push_back(report);
     }

@@ -517,6 +517,18 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
             q.done();
             body.parts.push_back(std::move(out));
         });
+        r.list("paint", 64, [&](const json& paint, const std::string& where) {
+            Reader q(paint, where, file);
+            Paint out;
+            q.need("position"), q.need("radius");
+            q.vector("position", out.brush.center, -1e6, 1e6, "m");
+            q.real("radius", out.brush.radius, 1e-6, 1e4, "m");
+            q.real("falloff", out.brush.falloff, 0, 1);
+            q.real("temperature", out.temperature, 0, 1e5, "K");
+            q.real("absorptivity", out.absorptivity, 0, 1);
+            q.done();
+            body.paint.push_back(out);
+        });
         r.done();
         scene.bodies.push_back(std::move(body));
     });

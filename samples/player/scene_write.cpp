@@ -203,6 +203,16 @@ std::string writeScene(const Scene& scene) {
                                return p.end();
                            }));
                  if (!body.anchored) o.add("anchored", boolean(body.anchored));
+                 if (!body.paint.empty())
+                     o.add("paint", list(body.paint, indent + 2, [&](const Paint& paint, int deeper) {
+                               ObjectText p(deeper);
+                               p.add("position", vector(paint.brush.center));
+                               p.add("radius", shortest(paint.brush.radius));
+                               if (paint.brush.falloff != 0) p.add("falloff", shortest(paint.brush.falloff));
+                               if (!std::isnan(paint.temperature)) p.add("temperature", shortest(paint.temperature));
+                               if (!std::isnan(paint.absorptivity)) p.add("absorptivity", shortest(paint.absorptivity));
+                               return p.end();
+                           }));
                  return o.end();
              }));
     root.add("colliders", list(scene.colliders, 2, [](const Collider& collider, int indent) {

@@ -61,6 +61,10 @@ Scene fullScene() {
         deep.depth = 0.0123f, deep.material = 2;
         if (type != ShapeType::cone) b.parts = {inner, deep};
         b.anchored = type != ShapeType::box;
+        Paint hot, black;
+        hot.brush = {{0.1f, -0.25f, 0.3f}, 0.0123f, 0.75f}, hot.temperature = 345.6f;
+        black.brush = {{0, 1, 0}, 0.5f, 0}, black.absorptivity = 0.875f;
+        if (type != ShapeType::torus) b.paint = {hot, black};
         s.bodies.push_back(b);
         Collider c;
         c.name = "wall";
@@ -151,6 +155,13 @@ TEST_CASE("every field of a scene survives writing and reading") {
             if (p.depth > 0) continue;
             sameShape(p.shape, q.shape);
             CHECK(std::memcmp(&p.placement, &q.placement, sizeof(Placement)) == 0);
+        }
+        REQUIRE(a.bodies[i].paint.size() == b.bodies[i].paint.size());
+        for (size_t k = 0; k < a.bodies[i].paint.size(); ++k) {
+            const Paint &p = a.bodies[i].paint[k], &q = b.bodies[i].paint[k];
+            CHECK(std::memcmp(&p.brush, &q.brush, sizeof(thawBrush)) == 0);
+            CHECK(std::memcmp(&p.temperature, &q.temperature, sizeof(float)) == 0);
+            CHECK(std::memcmp(&p.absorptivity, &q.absorptivity, sizeof(float)) == 0);
         }
         CHECK(a.colliders[i].slipLength == b.colliders[i].slipLength);
         CHECK(a.colliders[i].friction == b.colliders[i].friction);

@@ -50,6 +50,8 @@ TEST_CASE("api: a field of the world out of range is named with its value") {
         {"ambientTemperature", [](thawWorldDef& d) { d.ambientTemperature = -1; }, "-1"},
         {"convection", [](thawWorldDef& d) { d.convection = -3; }, "-3"},
         {"thermalTimeScale", [](thawWorldDef& d) { d.thermalTimeScale = 2e5f; }, "200000"},
+        {"thermalTimeScale", [](thawWorldDef& d) { d.thermalTimeScale = -1; }, "-1"},
+        {"thermalTimeScale", [](thawWorldDef& d) { d.thermalTimeScale = NAN; }, "nan"},
         {"tasks.workerCount", [](thawWorldDef& d) { d.tasks.workerCount = 0; }, "0"},
         {"allocator",
          [](thawWorldDef& d) { d.allocator.alloc = [](size_t, size_t, void*) -> void* { return nullptr; }; }, "both"},

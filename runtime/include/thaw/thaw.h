@@ -312,6 +312,23 @@ typedef struct thawBodyState {
 } thawBodyState;
 THAW_API thawResult thawBody_GetState(const thawWorld* world, thawBodyId id, thawBodyState* out);
 
+/* Where paint goes: a ball in the world. */
+typedef struct thawBrush {
+    thawVec3 center; /* m, each within 1e6 */
+    float radius;    /* m, range 1e-6..1e4 */
+    float falloff;   /* 1, the outer share of the radius over which the effect fades to none; range 0..1, 0: a sharp
+                        edge, all of it inside */
+} thawBrush;
+/* Gives the body's particles in the brush a temperature (K, range 0..1e5), or where the brush fades what lies so much
+ * of the way to it from their own. They melt or set as if made with it; the heat is in thawLedger.painted. *painted,
+ * which may be NULL, is how many were in it. Deterministic; paint again for more than one spot. */
+THAW_API thawResult thawBody_PaintTemperature(thawWorld* world, thawBodyId id, const thawBrush* brush,
+                                              float temperature, int32_t* painted);
+/* The same with the share of incoming radiation that they take up (range 0..1, in steps of 1/254), in place of their
+ * material's, which it is until then. It stays with the particles: black wax that runs is black. */
+THAW_API thawResult thawBody_PaintAbsorptivity(thawWorld* world, thawBodyId id, const thawBrush* brush,
+                                               float absorptivity, int32_t* painted);
+
 /* ---- colliders -------------------------------------------------------------------------------------------------- */
 
 typedef enum thawColliderType {
@@ -494,15 +511,16 @@ typedef enum thawParticleFlags {
 typedef struct thawParticleView {
     int32_t count;
     int32_t moving; /* the first `moving` rows flowed in the last step; the rest was held, or rigid; flags are newer */
-    const float* positions;       /* x y z r: m; r is the radius of the particle's sphere of influence for drawing */
-    const float* velocities;      /* x y z m: m/s, and mass in kg */
-    const float* temperatures;    /* K */
-    const float* liquidFractions; /* 0..1 */
-    const float* normals;         /* x y z a: outward unit normal and exposed area in m^2; zero inside */
-    const uint32_t* ids;          /* stable, never used twice in a world */
-    const uint16_t* bodies;       /* index1 - 1 of the thawBodyId */
-    const uint8_t* materials;     /* index1 - 1 of the thawMaterialId */
-    const uint8_t* flags;         /* thawParticleFlags */
+    const float* positions;        /* x y z r: m; r is the radius of the particle's sphere of influence for drawing */
+    const float* velocities;       /* x y z m: m/s, and mass in kg */
+    const float* temperatures;     /* K */
+    const float* liquidFractions;  /* 0..1 */
+    const float* normals;          /* x y z a: outward unit normal and exposed area in m^2; zero inside */
+    const uint32_t* ids;           /* stable, never used twice in a world */
+    const uint16_t* bodies;        /* index1 - 1 of the thawBodyId */
+    const uint8_t* materials;      /* index1 - 1 of the thawMaterialId */
+    const uint8_t* flags;          /* thawParticleFlags */
+    const uint8_t* absorptivities; /* 1 + 254 x the painted one; 0: the material's */
 } thawParticleView;
 THAW_API void thawWorld_GetParticles(const thawWorld* world, thawParticleView* out);
 
@@ -544,14 +562,15 @@ typedef struct thawLedger {
     double massBurnt, energyBurnt;          /* kg and J that turned to vapour */
     double energyAdded;                     /* J, enthalpy that bodies brought, relative to each material's solidus */
     double energyRemoved;                   /* J, taken out with destroyed bodies and bad particles */
+    double painted;                         /* J, by thawBody_PaintTemperature */
     double absorbed;                        /* J from sources */
     double contact;                         /* J from colliders with a temperature */
     double emitted;                         /* J by thermal radiation, net of what ambient sends back */
     double convected;                       /* J to the air */
     double energyNow;                       /* J, sum of m H */
     double massError;                       /* |massNow - added + removed + burnt| / added */
-    double energyError; /* |energyNow - (added - removed - burnt + absorbed + contact - emitted - convected)| / largest
-                           sum moved */
+    double energyError; /* |energyNow - (added - removed - burnt + painted + absorbed + contact - emitted -
+                           convected)| / largest sum moved */
 } thawLedger;
 THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);
 

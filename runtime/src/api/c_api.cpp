@@ -239,6 +239,14 @@ void checkParts(const World& w, Check& c, const thawBodyDef& def) {
     }
 }
 
+void checkBrush(const World& w, Check& c, thawBodyId id, const thawBrush* brush) {
+    if (!alive(w, id, w.bodies)) c.fail(thawResult_staleId, "body: is not alive in this world");
+    if (!brush) return c.fail(thawResult_invalidArgument, "brush: is NULL");
+    c.finite("brush.center", brush->center, 1e6);
+    c.range("brush.radius", brush->radius, 1e-6, 1e4);
+    c.range("brush.falloff", brush->falloff, 0, 1);
+}
+
 void checkPlace(const World& w, Check& c, thawColliderId id, thawVec3 position, thawQuat rotation) {
     if (!alive(w, id, w.colliderSlots)) c.fail(thawResult_staleId, "collider: is not alive in this world");
     c.finite("position", position, 1e5);
@@ -478,6 +486,30 @@ thawResult thawBody_GetState(const thawWorld* world, thawBodyId id, thawBodyStat
     return thawResult_ok;
 }
 
+thawResult thawBody_PaintTemperature(thawWorld* world, thawBodyId id, const thawBrush* brush, float temperature,
+                                     int32_t* painted) {
+    if (painted) *painted = 0;
+    return guarded(world, [&](World& w, Check& c) {
+        checkBrush(w, c, id, brush);
+        c.range("temperature", temperature, 0, 1e5);
+        if (!c.ok()) return;
+        const int n = w.paintTemperature(id.index1 - 1, *brush, temperature);
+        if (painted) *painted = n;
+    });
+}
+
+thawResult thawBody_PaintAbsorptivity(thawWorld* world, thawBodyId id, const thawBrush* brush, float absorptivity,
+                                      int32_t* painted) {
+    if (painted) *painted = 0;
+    return guarded(world, [&](World& w, Check& c) {
+        checkBrush(w, c, id, brush);
+        c.range("absorptivity", absorptivity, 0, 1);
+        if (!c.ok()) return;
+        const int n = w.paintAbsorptivity(id.index1 - 1, *brush, absorptivity);
+        if (painted) *painted = n;
+    });
+}
+
 void thawInitColliderDef(thawColliderDef* def, thawColliderType type) {
     if (!def) return;
     *def = thawColliderDef{};
@@ -674,6 +706,7 @@ void thawWorld_GetParticles(const thawWorld* world, thawParticleView* out) {
     out->bodies = p.body.data();
     out->materials = p.material.data();
     out->flags = p.flags.data();
+    out->absorptivities = p.absorbs.data();
 }
 
 void thawInitSurfaceDef(thawSurfaceDef* def) {

@@ -39,8 +39,14 @@ enum ParticleFlag : uint8_t {
     X(uint16_t, piece)  /* rigid piece that a fixed row is part of, its slot + 1; 0: held, or a mover */               \
     X(uint16_t, anchor) /* fixed: 1 + the collider that it hangs on, of those that are told apart; else 0 */           \
     X(uint8_t, material)                                                                                               \
-    X(uint8_t, level) /* mass 2^level of the finest */                                                                 \
+    X(uint8_t, level)   /* mass 2^level of the finest */                                                               \
+    X(uint8_t, absorbs) /* 1 + 254 x painted absorptivity; 0: that of the material */                                  \
     X(uint8_t, flags)
+
+inline uint8_t paintedAbsorptivity(float a) { return static_cast<uint8_t>(1.5f + 254 * a); }
+inline float absorptivity(uint8_t painted, float material) {
+    return painted == 0 ? material : static_cast<float>(painted - 1) * (1.0f / 254);
+}
 
 // Structure of arrays. Rows are kept sorted: the movers [0, moverCount) first, then the fixed [moverCount, count), each
 // in cell order. kPadding rows after the last one are dummies far away with no mass, so that groups of 8 may read past

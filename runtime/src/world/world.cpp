@@ -850,11 +850,12 @@ thawLedger World::ledger() const {
     l.massAdded = massAdded_, l.massRemoved = massRemoved_, l.massNow = massNow_;
     l.massBurnt = massBurnt_, l.energyBurnt = energyBurnt_;
     l.energyAdded = energyAdded_, l.energyRemoved = energyRemoved_, l.energyNow = energyNow_;
-    l.absorbed = absorbed_, l.contact = contact_, l.emitted = emitted_, l.convected = convected_;
+    l.painted = painted_, l.absorbed = absorbed_, l.contact = contact_, l.emitted = emitted_, l.convected = convected_;
     l.massError = massAdded_ > 0 ? std::abs(massNow_ - massAdded_ + massRemoved_ + massBurnt_) / massAdded_ : 0;
-    const double expected = energyAdded_ - energyRemoved_ - energyBurnt_ + absorbed_ + contact_ - emitted_ - convected_;
-    const double scale = std::max({std::abs(energyAdded_ - energyRemoved_), std::abs(energyBurnt_), std::abs(absorbed_),
-                                   std::abs(contact_), std::abs(emitted_), std::abs(convected_)});
+    const double expected =
+        energyAdded_ - energyRemoved_ - energyBurnt_ + painted_ + absorbed_ + contact_ - emitted_ - convected_;
+    const double scale = std::max({std::abs(energyAdded_ - energyRemoved_), std::abs(energyBurnt_), std::abs(painted_),
+                                   std::abs(absorbed_), std::abs(contact_), std::abs(emitted_), std::abs(convected_)});
     l.energyError = scale > 0 ? std::abs(energyNow_ - expected) / scale : 0;
     return l;
 }

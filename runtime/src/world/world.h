@@ -49,6 +49,8 @@ public:
 
     thawResult addBody(const thawBodyDef& def, thawMeshReport& report, std::string& message, uint32_t& index1);
     void removeBody(uint32_t index);
+    int paintTemperature(uint32_t body, const thawBrush& brush, float temperature);
+    int paintAbsorptivity(uint32_t body, const thawBrush& brush, float value);
     thawBodyState bodyState(uint32_t index) const;
     thawResult addCollider(const thawColliderDef& def, thawMeshReport& report, std::string& message, uint32_t& index1);
     void removeCollider(uint32_t index);
@@ -137,7 +139,7 @@ private:
     // Ledger and counters of the last measurement.
     double massAdded_ = 0, massRemoved_ = 0, energyAdded_ = 0, energyRemoved_ = 0;
     double massBurnt_ = 0, energyBurnt_ = 0;
-    double absorbed_ = 0, contact_ = 0, emitted_ = 0, convected_ = 0;
+    double painted_ = 0, absorbed_ = 0, contact_ = 0, emitted_ = 0, convected_ = 0;
     double massNow_ = 0, energyNow_ = 0, liquidMass_ = 0;
     float minTemperature_ = 0, maxTemperature_ = 0;
     int undercooled_ = 0; // particles that solid would set, even where all has one temperature
