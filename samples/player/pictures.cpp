@@ -154,6 +154,11 @@ void Pictures::take(thawWorld* world, PictureView mode, const std::string& capti
     s.taken.push_back({std::move(*image), caption});
 }
 
+void Pictures::append(Pictures& other) {
+    for (auto& picture : other.state_->taken) state_->taken.push_back(std::move(picture));
+    other.state_->taken.clear();
+}
+
 void Pictures::writeSheet(const std::string& path, const std::string& title) const {
     std::string error;
     const view::Image sheet = view::contactSheet(state_->taken, 0, title);

@@ -25,6 +25,8 @@ public:
 
     // Draws the world as it is now into a PNG file. Throws RunError.
     void take(thawWorld* world, PictureView view, const std::string& caption, const std::string& path);
+    // The other's pictures come after its own; the other has none then.
+    void append(Pictures& other);
     // All pictures so far in a grid. Throws RunError.
     void writeSheet(const std::string& path, const std::string& title) const;
 
