@@ -69,6 +69,7 @@ public:
     struct Stress {
         float mises;      // Pa, of the virial of its bonds
         float meanStrain; // a third of the change of volume
+        float bondMean;   // of its bonds' strains, as they weigh in the pressure
     };
     // Of a row with bonds; valid from lay() to the next sort.
     Stress stress(const BondFrame& f, uint32_t row) const;
