@@ -3,6 +3,9 @@
 #include "motion/bond_pass.h"
 #include "motion/motion.h"
 #include "motion/numbers.h"
+#include "motion/walls.h"
+
+#include <algorithm>
 
 namespace thaw {
 namespace {
@@ -11,6 +14,8 @@ namespace {
 constexpr float kStand = 0.5f;
 // What was pressed against a wall stays so within this many spacings of it, until it would have to be pulled.
 constexpr float kStill = 0.1f;
+// What a wall that moves has come into by more than this many spacings it drives out.
+constexpr float kSunk = 0.05f;
 // Pull that releases, and approach that grips, as shares of what gravity does in a step.
 constexpr float kPull = 0.01f;
 
@@ -39,30 +44,44 @@ bool Motion::regrip(const MotionFrame& f) {
             if (!slot || !contactCount_[i]) continue;
             const float spacing = p.position[i].w / kSupport;
             uint8_t& pressed = f.bonds->pressed(slot);
-            const bool was = grip_[i].w > 0;
+            const int before = static_cast<int>(grip_[i].w); // a bit for each wall
             const Vec3 v = p.velocity[i].xyz();
-            // What a wall gives it is what it lacks.
-            const Vec3 push = was ? -1.0f / trait_[i].z * residual_[i].xyz() : Vec3{};
+            // What the walls give it is what it lacks. One that would have to pull lets go, the others hold on: or what
+            // is lifted off the floor by a plate that comes goes through the plate.
+            const Vec3 push = before ? -1.0f / trait_[i].z * residual_[i].xyz() : Vec3{};
             Vec3 on;
-            bool grips = false, pulls = false;
-            for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c) {
-                const Vec3 normal = contact_[c].xyz(), wall = wallsMove_ ? wallVelocity_[c].xyz() : Vec3{};
-                const float gap = contact_[c].w - kStand * spacing, need = gap > 0 ? -gap / f.dt : 0;
-                if (was) {
-                    if (gap > kStill * spacing && !(dot(normal, grip_[i].xyz() - wall) <= need + scale)) continue;
-                    pulls |= dot(normal, push) < -scale;
-                } else if (!(dot(normal, v - wall) < need - scale) && !(pressed && gap < kStill * spacing)) {
-                    continue;
+            int now = 0;
+            const auto forWalls = [&](auto&& body) {
+                for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c) {
+                    const Vec3 normal = contact_[c].xyz(), wall = wallsMove_ ? wallVelocity_[c].xyz() : Vec3{};
+                    const float gap = contact_[c].w - kStand * spacing, in = -gap - kSunk * spacing;
+                    const float need = gap > 0      ? -gap / f.dt
+                                       : wallsMove_ ? std::clamp(in, 0.0f, kWallRecovery * spacing) / f.dt
+                                                    : 0;
+                    if (!body(1 << (c - i * kContacts), normal, wall, gap, need)) continue;
+                    // With the nearest, and out of the others: one that moves on goes through what another holds.
+                    if (!now)
+                        on = wall + need * normal;
+                    else
+                        on += std::max(0.0f, need + dot(normal, wall - on)) * normal;
+                    now |= 1 << (c - i * kContacts);
                 }
-                if (!grips) on += wall; // of the nearest
-                grips = true;
-                on += need * normal;
-            }
-            if (was && pulls) grips = false;
-            pressed = grips;
-            if (grips == was) continue;
-            grip_[i] = {on.x, on.y, on.z, grips ? 1.0f : 0.0f};
-            if (grips) p.velocity[i].setXyz(on);
+            };
+            forWalls([&](int bit, Vec3 normal, Vec3 wall, float gap, float need) {
+                if (before & bit)
+                    return !(gap > kStill * spacing && !(dot(normal, grip_[i].xyz() - wall) <= need + scale)) &&
+                           !(dot(normal, push) < -scale);
+                return dot(normal, v - wall) < need - scale || (!before && pressed && gap < kStill * spacing);
+            });
+            // What one lets go the others may hold in its way.
+            if (now)
+                forWalls([&](int bit, Vec3 normal, Vec3 wall, float, float need) {
+                    return !(now & bit) && dot(normal, on - wall) < need - scale;
+                });
+            pressed = now != 0;
+            if (now == before) continue;
+            grip_[i] = {on.x, on.y, on.z, static_cast<float>(now)};
+            if (now) p.velocity[i].setXyz(on);
             sums.a += 1;
         }
     });

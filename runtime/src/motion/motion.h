@@ -165,7 +165,7 @@ private:
     Array<Vec4> inverse_, cross_; // per mover: xx yy zz and xy xz yz of its inverted viscous block, 1/kg
     Array<Vec4> before_, residual_, direction_, image_;
     // Elastic solids: whether there are any; per mover, what a wall that it is pressed against makes of its velocity in
-    // the viscous solve, w 1, or w 0.
+    // the viscous solve; w: bits of the contacts that do, 0: none.
     bool bonded_ = false;
     Array<Vec4> grip_;
     // Per row: first the velocity at the start of the sub-step, then the position at its end before particles are moved

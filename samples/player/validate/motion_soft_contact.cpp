@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
-// Elastic solids against what they touch: rigid pieces that are laid on them.
+// Elastic solids against what they touch: rigid pieces that are laid on them, a plate that pushes them.
 #include "validate/lab.h"
 #include "validate/validate.h"
 
@@ -100,12 +100,52 @@ void slowHit(Findings& found) {
     found.atMost("energy, of before", 1.01, most / energy);
 }
 
+// A plate comes along the floor to a block that stands free there, and goes on.
+void pushed(Findings& found) {
+    struct Push {
+        float spacing, speed;
+        int frames;
+    };
+    for (const auto& [spacing, speed, frames] : {Push{0.004f, 0.1f, 60}, {0.004f, 0.3f, 30}, {0.002f, 0.3f, 30}}) {
+        Lab lab(spacing);
+        lab.floor();
+        const thawBodyId block =
+            lab.box(lab.material(soft(1e5f)), {-0.016f, 0, -0.016f}, {0.016f, 0.032f, 0.016f}, Lab::kSolid, free);
+        thawColliderDef d;
+        thawInitColliderDef(&d, thawCollider_box);
+        d.size = {0.004f, 0.03f, 0.03f}, d.position = {-0.024f, 0.029f, 0};
+        const thawColliderId plate = lab.collider(d);
+        lab.step(60);
+        const double start = stateOf(lab, block).x[0];
+        float face = d.position.x + d.size.x;
+        double deepest = 0;
+        for (int n = 0; n < frames; ++n) {
+            face += speed / 60;
+            thawCollider_SetTransform(lab.world(), plate, {face - d.size.x, d.position.y, 0}, d.rotation);
+            lab.step(1);
+            const thawParticleView v = lab.particles();
+            for (int i = 0; i < v.count; ++i)
+                deepest = std::max(deepest, static_cast<double>(face - v.positions[4 * i] + 0.5f * spacing));
+        }
+        char what[96];
+        const auto named = [&](const char* text) {
+            std::snprintf(what, sizeof what, "%g mm, %g m/s: %s", 1000 * static_cast<double>(spacing),
+                          static_cast<double>(speed), text);
+            return what;
+        };
+        found.atMost(named("the plate goes into it, spacings"), 0.5, deepest / static_cast<double>(spacing));
+        const double way = static_cast<double>(speed) * frames / 60 - 0.004;
+        found.within(named("its centre goes, m"), way, stateOf(lab, block).x[0] - start, 0.25);
+    }
+}
+
 } // namespace
 
 CaseList softContactCases() {
     return {
         {"soft-laid-on", "rigid plate of 16 mm on an elastic block that sleeps: sag p H / E", laidOn},
-        {"soft-slow-hit", "rigid cube at 0.02 m/s to an elastic block asleep in the air: momentum, energy", slowHit}};
+        {"soft-slow-hit", "rigid cube at 0.02 m/s to an elastic block asleep in the air: momentum, energy", slowHit},
+        {"soft-pushed", "a plate pushes an elastic cube of 32 mm along the floor", pushed}};
 }
 
 } // namespace thaw::player
