@@ -106,7 +106,7 @@ void pushed(Findings& found) {
         float spacing, speed;
         int frames;
     };
-    for (const auto& [spacing, speed, frames] : {Push{0.004f, 0.1f, 60}, {0.004f, 0.3f, 30}, {0.002f, 0.3f, 30}}) {
+    for (const auto& [spacing, speed, frames] : {Push{0.004f, 0.1f, 60}, {0.004f, 0.3f, 20}, {0.002f, 0.3f, 20}}) {
         Lab lab(spacing);
         lab.floor();
         const thawBodyId block =
@@ -145,7 +145,7 @@ CaseList softContactCases() {
     return {
         {"soft-laid-on", "rigid plate of 16 mm on an elastic block that sleeps: sag p H / E", laidOn},
         {"soft-slow-hit", "rigid cube at 0.02 m/s to an elastic block asleep in the air: momentum, energy", slowHit},
-        {"soft-pushed", "a plate pushes an elastic cube of 32 mm along the floor", pushed}};
+        {"soft-pushed", "a plate pushes an elastic cube of 32 mm 0.1 m along the floor", pushed}};
 }
 
 } // namespace thaw::player
