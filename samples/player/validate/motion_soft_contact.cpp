@@ -100,7 +100,7 @@ void slowHit(Findings& found) {
     found.atMost("energy, of before", 1.01, most / energy);
 }
 
-// A plate comes along the floor to a block that stands free there, and goes on.
+// A plate comes along the floor to a block that stands free there, awake, and goes on.
 void pushed(Findings& found) {
     struct Push {
         float spacing, speed;
@@ -115,7 +115,7 @@ void pushed(Findings& found) {
         thawInitColliderDef(&d, thawCollider_box);
         d.size = {0.004f, 0.03f, 0.03f}, d.position = {-0.024f, 0.029f, 0};
         const thawColliderId plate = lab.collider(d);
-        lab.step(60);
+        lab.step(10);
         const double start = stateOf(lab, block).x[0];
         float face = d.position.x + d.size.x;
         double deepest = 0;
@@ -145,7 +145,7 @@ CaseList softContactCases() {
     return {
         {"soft-laid-on", "rigid plate of 16 mm on an elastic block that sleeps: sag p H / E", laidOn},
         {"soft-slow-hit", "rigid cube at 0.02 m/s to an elastic block asleep in the air: momentum, energy", slowHit},
-        {"soft-pushed", "a plate pushes an elastic cube of 32 mm 0.1 m along the floor", pushed}};
+        {"soft-pushed", "a plate pushes an elastic cube of 32 mm, awake, 0.1 m along the floor", pushed}};
 }
 
 } // namespace thaw::player
