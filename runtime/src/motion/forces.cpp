@@ -12,9 +12,8 @@ namespace thaw {
 void Motion::forces(const MotionFrame& f) {
     Particles& p = f.particles;
     if (p.moverCount == 0) return;
-    bool used[256] = {}, cohesive = false;
-    for (int r = 0; r < p.count; ++r) used[p.material[static_cast<size_t>(r)]] = true;
-    for (int m = 0; m < 256; ++m) cohesive |= used[m] && f.materials[m].def.cohesion > 0;
+    bool cohesive = false;
+    forMaterials(p, p.count, [&](uint8_t m) { cohesive |= f.materials[m].def.cohesion > 0; });
     const ForcePass pass{
         PairLists(f.neighbors), p.position.data(), trait_.data(), f.volume,           f.invDensity, f.dt, cohesive,
         image_.data(),          inverse_.data(),   cross_.data(), coefficient_.data()};

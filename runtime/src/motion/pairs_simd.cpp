@@ -40,9 +40,13 @@ template <bool kCohesive> HWY_INLINE void forceRows(const ForcePass& p, const Sp
         const F32 pressure = hn::Mul(hn::Add(ti.w, tj.w), g);
         px = hn::MulAdd(pressure, x, px), py = hn::MulAdd(pressure, y, py), pz = hn::MulAdd(pressure, z, pz);
 
-        // Weiler et al. 2018, projected form; the mean of the two viscosities keeps it symmetric.
-        const F32 mu = hn::IfThenElse(fixed, ti.x, hn::Mul(half, hn::Add(ti.x, tj.x)));
-        const F32 c = hn::Div(hn::Mul(hn::Mul(scale, mu), g), hn::MulAdd(all(0.01f), h2, r2));
+        // Weiler et al. 2018, projected form. Two viscosities in series, for where layers meet the
+        // stress is one: with their arithmetic mean a film of 10 Pa s on one of 100 / 1000 runs 20 / 28 % slow, 5 / 9 %
+        // so (8 % on its like).
+        const F32 product = hn::Mul(ti.x, tj.x), both = hn::Max(hn::Add(ti.x, tj.x), all(1e-30f));
+        const F32 mu = hn::IfThenElse(fixed, ti.x, hn::Add(product, product));
+        const F32 over = hn::Mul(hn::IfThenElse(fixed, all(1), both), hn::MulAdd(all(0.01f), h2, r2));
+        const F32 c = hn::Div(hn::Mul(hn::Mul(scale, mu), g), over);
         store(c, p.coefficient + s.start + 8 * k);
         const F32 alongX = hn::Mul(c, x), alongY = hn::Mul(c, y);
         dx = hn::MulAdd(alongX, x, dx), dy = hn::MulAdd(alongY, y, dy), dz = hn::MulAdd(c, hn::Mul(z, z), dz);
@@ -52,8 +56,8 @@ template <bool kCohesive> HWY_INLINE void forceRows(const ForcePass& p, const Sp
             // None up to one spacing, none at the support, largest (1) between.
             const F32 r = hn::Sqrt(r2), d = hn::Mul(all(1 / kSupport), h);
             const Mask between = hn::And(hn::Lt(d, r), hn::Lt(r, h));
-            const F32 both = hn::Mul(ti.z, tj.z);
-            const F32 mass = hn::IfThenElse(fixed, ti.z, hn::Add(both, both));
+            const F32 masses = hn::Mul(ti.z, tj.z);
+            const F32 mass = hn::IfThenElse(fixed, ti.z, hn::Add(masses, masses));
             const F32 sum = hn::IfThenElse(fixed, all(1), hn::Add(ti.z, tj.z));
             const F32 shape = hn::Mul(hn::Mul(hn::Sub(r, d), hn::Sub(h, r)), all(-0.5f * kCohesionPeak));
             const F32 top = hn::Mul(hn::Mul(shape, mass), hn::Add(ti.y, tj.y));

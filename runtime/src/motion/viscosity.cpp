@@ -344,11 +344,7 @@ void Motion::viscosity(const MotionFrame& f) {
             }
         });
     bool yielding = false;
-    if (sound) {
-        bool used[256] = {};
-        for (int r = 0; r < p.moverCount; ++r) used[p.material[static_cast<size_t>(r)]] = true;
-        for (int m = 0; m < 256; ++m) yielding |= used[m] && f.materials[m].def.yieldStress > 0;
-    }
+    if (sound) forMaterials(p, p.moverCount, [&](uint8_t m) { yielding |= f.materials[m].def.yieldStress > 0; });
     if (yielding) thicken(f);
     const float share = 1 / static_cast<float>(std::max(1, f.subSteps));
     const float deepSoften = detExp(share * kSofteningLog), shallowSoften = detExp(share * kShallowSofteningLog);

@@ -97,4 +97,14 @@ struct Particles {
     }
 };
 
+// Calls f(m) at least once for every material m among the first `rows` rows; rows in cell order mostly share theirs with
+// the one before.
+template <class F> void forMaterials(const Particles& p, int rows, F&& f) {
+    int last = -1;
+    for (int r = 0; r < rows; ++r) {
+        const uint8_t m = p.material[static_cast<size_t>(r)];
+        if (m != last) f(m), last = m;
+    }
+}
+
 } // namespace thaw

@@ -117,17 +117,6 @@ double Lab::height() const {
     return top + 0.5 * static_cast<double>(spacing_);
 }
 
-double Lab::meltVolume() const {
-    thawSurfaceDef d;
-    thawInitSurfaceDef(&d);
-    thawSurfaceView s;
-    require(thawWorld_ExtractSurface(world_, &d, &s));
-    scene::TriMesh mesh;
-    mesh.vertices.assign(s.positions, s.positions + 3 * s.vertexCount);
-    mesh.indices.assign(s.indices, s.indices + 3 * s.triangleCount);
-    return scene::volumeOf(mesh);
-}
-
 Momentum momentumOf(const thawParticleView& v) {
     Momentum m{};
     for (int i = 0; i < v.count; ++i) {

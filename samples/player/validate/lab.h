@@ -49,7 +49,6 @@ public:
     thawParticleView particles() const;
     thawCounters counters() const;
     double height() const;     // m, of the topmost particle's centre plus half a spacing
-    double meltVolume() const; // m^3, from the extracted surface
     thawWorld* world() const { return world_; }
     float spacing() const { return spacing_; }
     thawBudget budget; // what step() passes

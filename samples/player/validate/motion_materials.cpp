@@ -91,12 +91,60 @@ void heavierSinks(Findings& found) {
     for (const float viscosity : {0.05f, 0.5f}) sink(found, viscosity);
 }
 
+// A film of two layers, the thicker liquid below, in a channel with walls on which it slides freely. The stress is that
+// of the weight above, so that u(y) = G / mu_1 (H s - s^2 / 2) + G / mu_2 (H (y - h) - (y^2 - h^2) / 2), s = min(y, h),
+// G = rho g sin b; of gravity turned by 30 degrees.
+void layeredFilm(Findings& found) {
+    constexpr float kSpacing = 0.004f, kLength = 128 * kSpacing, kHalf = 6 * kSpacing, kThin = 10;
+    constexpr double kDown = 9.81 * 0.5, kInto = 9.81 * 0.8660254;
+    for (const float ratio : {1.0f, 10.0f, 100.0f, 1000.0f}) {
+        Lab lab(kSpacing, 14000, {0, -static_cast<float>(kInto), 0});
+        lab.floor();
+        for (float side = -1; side < 2; side += 2) {
+            thawColliderDef d;
+            thawInitColliderDef(&d, thawCollider_plane);
+            d.position = {0, 0, side * kHalf};
+            d.rotation = turnTo({0, 1, 0}, {0, 0, -side});
+            d.slipLength = 1e4f;
+            lab.collider(d);
+        }
+        const thawMaterialId below = lab.material(Lab::plain(1000, ratio * kThin)),
+                             above = lab.material(Lab::plain(1000, kThin));
+        lab.box(below, {0, 0, -kHalf}, {kLength, 4 * kSpacing, kHalf}, Lab::kLiquid);
+        lab.box(above, {0, 4 * kSpacing, -kHalf}, {kLength, 8 * kSpacing, kHalf}, Lab::kLiquid);
+        // Only now: a liquid body is born with the pressure that it would have at rest, and on a slope it is not.
+        thawWorld_SetGravity(lab.world(), {static_cast<float>(kDown), -static_cast<float>(kInto), 0});
+        lab.step(75);
+        const thawParticleView v = lab.particles();
+        const auto inside = [&](int i) {
+            return std::abs(v.positions[4 * i] - 0.5f * kLength) < 6 * kSpacing &&
+                   std::abs(v.positions[4 * i + 2]) < 4 * kSpacing;
+        };
+        const double perLayer = 12 * 8, d = static_cast<double>(kSpacing);
+        double H = 0, h = 0;
+        for (int i = 0; i < v.count; ++i)
+            if (inside(i)) H += d / perLayer, h += v.materials[i] == 0 ? d / perLayer : 0;
+        const double G = 1000 * kDown, thin = static_cast<double>(kThin), thick = static_cast<double>(ratio) * thin;
+        double speed = 0, theory = 0;
+        for (int i = 0; i < v.count; ++i) {
+            const double y = static_cast<double>(v.positions[4 * i + 1]), s = std::min(y, h);
+            if (!inside(i) || v.materials[i] == 0) continue;
+            speed += static_cast<double>(v.velocities[4 * i]);
+            theory += G / thick * (H * s - 0.5 * s * s);
+            if (y > h) theory += G / thin * (H * (y - h) - 0.5 * (y * y - h * h));
+        }
+        found.within(formatted("%g over %g Pa s: sum of speeds above, m/s", thin, thick), theory, speed, 0.1);
+    }
+}
+
 } // namespace
 
 CaseList materialCases() {
     return {
         {"unlike-blob", "ball of halves of 500 and 1000 kg/m^3 drifts freely for 5 s", unlikeBlob},
-        {"unlike-layers", "500 and 1000 kg/m^3 side by side: 10 s later the heavy lies under the light", heavierSinks}};
+        {"unlike-layers", "500 and 1000 kg/m^3 side by side: 10 s later the heavy lies under the light", heavierSinks},
+        {"unlike-viscosities", "film of two layers, the lower one 1 to 1000 times as viscous, on an incline",
+         layeredFilm}};
 }
 
 } // namespace thaw::player
