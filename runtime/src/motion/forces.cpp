@@ -14,9 +14,18 @@ void Motion::forces(const MotionFrame& f) {
     if (p.moverCount == 0) return;
     bool cohesive = false;
     forMaterials(p, p.count, [&](uint8_t m) { cohesive |= f.materials[m].def.cohesion > 0; });
-    const ForcePass pass{
-        PairLists(f.neighbors), p.position.data(), trait_.data(), f.volume,           f.invDensity, f.dt, cohesive,
-        image_.data(),          inverse_.data(),   cross_.data(), coefficient_.data()};
+    const ForcePass pass{PairLists(f.neighbors),
+                         p.position.data(),
+                         trait_.data(),
+                         f.volume,
+                         f.invDensity,
+                         f.dt,
+                         cohesive,
+                         severalMaterials_ ? ownViscosity_.data() : nullptr,
+                         image_.data(),
+                         inverse_.data(),
+                         cross_.data(),
+                         coefficient_.data()};
     const Vec3 down = normalizeOr(f.gravity, {});
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
         pairForces(pass, begin, end);

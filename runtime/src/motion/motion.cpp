@@ -33,9 +33,9 @@ bool outside(const Box& b, Vec3 p, float margin) {
 Motion::Motion(Allocator& a)
     : colliderBounds_(a), contact_(a), contactAdhesive_(a), contactCount_(a), contactOf_(a), contactSlope_(a),
       mirror_(a), mirrorChange_(a), wallVelocity_(a), wallPush_(a), heldVelocity_(a), kick_(a), heldKick_(a),
-      reportSlot_(a), reports_(a), held_(a), landing_(a), landingOn_(a), wallGradient_(a), trait_(a), point_(a),
-      coefficient_(a), wallDrag_(a), inverse_(a), cross_(a), before_(a), residual_(a), direction_(a), image_(a),
-      grip_(a), target_(a), piece_(a), queue_(a), pieceEnd_(a), sums_(a) {}
+      reportSlot_(a), reports_(a), held_(a), landing_(a), landingOn_(a), wallGradient_(a), trait_(a), ownViscosity_(a),
+      point_(a), coefficient_(a), wallDrag_(a), inverse_(a), cross_(a), before_(a), residual_(a), direction_(a),
+      image_(a), grip_(a), target_(a), piece_(a), queue_(a), pieceEnd_(a), sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
@@ -82,6 +82,9 @@ void Motion::begin(const MotionFrame& f) {
     // pressure, which fades (taken away at once, its neighbours would fall freely for a frame).
     if (bonded_) grip_.assign(movers, {});
     findUnlike(f);
+    severalMaterials_ = false;
+    forMaterials(p, p.moverCount, [&](uint8_t m) { severalMaterials_ |= m != p.material[0]; });
+    if (severalMaterials_) ownViscosity_.assign(rows, 0);
     const int still = static_cast<int>(rows) - p.moverCount;
     f.tasks.forBlocks(still, 8 * kBlock, [&](int begin, int end, int, int) {
         for (int r = begin; r < end; ++r) {
@@ -175,6 +178,7 @@ void Motion::begin(const MotionFrame& f) {
             const float least = std::max(wanted, floor), folded = shear * fold * pressure;
             const float solved = std::sqrt(least * least + folded * folded);
             if (solved > viscosity && !elastic) sums.d = std::max(sums.d, solved);
+            if (severalMaterials_) ownViscosity_[i] = wanted / shear;
             trait_[i] = {solved / shear, elastic ? 0.0f : f.materials[material].def.cohesion * (0.1f * kGravity),
                          p.velocity[i].w, pressure};
             point_[i] = {x.x, x.y, x.z, 0};

@@ -30,7 +30,8 @@ struct ForcePass {
     const float* volume;     // m^3
     const float* invDensity; // 0 for fixed
     float dt;
-    bool cohesive; // some material coheres
+    bool cohesive;    // some material coheres
+    const float* own; // of the trait's viscosity, what is the material's; null: a pair has the mean of both
     // Out, per row: dv by cohesion and warm pressure (pairs only), the 3 x 3 diagonal block of the viscous pair matrix;
     // per entry: the viscous coefficient.
     Vec4* change;
