@@ -118,6 +118,20 @@ TEST_CASE("exposure: drops, films and threads") {
     CHECK(thread.area() / (40 * 2 * std::sqrt(kPi) * unit(thread)) == doctest::Approx(1).epsilon(0.15).scale(0));
 }
 
+TEST_CASE("exposure: a film of one layer has its area, however thick the layer is") {
+    for (const float thickness : {0.55f, 0.8f, 1.0f, 1.2f}) {
+        HeatFixture f;
+        f.addBlock({0, 0, 0}, 30, 1, 30, room);
+        f.build();
+        for (size_t i = 0; i < f.size(); ++i) f.particles.velocity[i].w *= thickness;
+        f.refresh();
+        CAPTURE(thickness);
+        const double rim = 4.0 * 30 * static_cast<double>(thickness);
+        CHECK(f.area() / ((2.0 * 30 * 30 + rim) * unit(f)) == doctest::Approx(1).epsilon(0.08).scale(0));
+        CHECK(f.exposed == 900);
+    }
+}
+
 TEST_CASE("exposure: what rests on a floor is not exposed to it") {
     for (float height : {0.3f, 0.5f, 0.7f}) {
         HeatFixture f;

@@ -79,10 +79,15 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
         WallFinder walls;
         walls.gather(colliders, nullptr, colliderCount, around, reach);
         int exposed = 0;
-        float lastVolume = 0, edge = 0; // most rows are of one size
+        float lastVolume = 0, lastSupport = 0, edge = 0, thinner = 1; // most rows are of one size
         for (int i = begin; i < end; ++i) {
             const size_t k = static_cast<size_t>(i);
             const float h = particles.position[k].w;
+            if (volume[k] != lastVolume || h != lastSupport) {
+                lastVolume = volume[k], lastSupport = h, edge = detCbrt(lastVolume);
+                const float spacing = h / kSupport;
+                thinner = lastVolume > 0 ? spacing * spacing * spacing / lastVolume : 1.0f;
+            }
             float share = neighbors.volumeFraction[k];
             Vec3 gradient = neighbors.gradientSum[k].xyz();
             particles.normal[k] = {};
@@ -98,22 +103,25 @@ int findExposure(Particles& particles, const Neighbors& neighbors, const float* 
                           });
             const float steep = length(gradient) * h;
             const float slope = steep / share, bySlope = interpolate(kBySlope, slope);
-            const float missing = std::max(1 - share, bySlope);
+            const bool faceless = steep < kLeastGradient;
+            // A film in the air of one layer has the volume of its thickness: how full its support is says nothing
+            // about how thick it is, only how many there are.
+            const float missing = faceless ? 1 - share * thinner : std::max(1 - share, bySlope);
             // Less bare than that is the disorder of a liquid's inside: 1000 of the candle's 3400 at the surface were,
             // and took rays.
-            if (missing < kArea[0].at || (steep < kLeastGradient && missing < kSurelyBare)) continue;
+            if (missing < kArea[0].at || (faceless && missing < kSurelyBare)) continue;
             float area;
-            if (steep < kLeastGradient) {
+            if (faceless) {
                 area = interpolate(kFaceless, missing);
             } else {
                 const float denser = std::max(0.0f, share / (1 - bySlope) - 1) / kDenser;
                 area = interpolate(kArea, missing) + std::min(denser, kMostDense) * interpolate(kDense, slope);
             }
             if (!(area > 0)) continue;
-            if (volume[k] != lastVolume) lastVolume = volume[k], edge = detCbrt(lastVolume);
             Vec4& normal = particles.normal[k];
             if (steep > kLeastDirection) normal.setXyz(normalizeOr(-gradient, {}));
-            normal.w = area * edge * edge;
+            const float side = faceless ? h / kSupport : edge;
+            normal.w = area * side * side;
             particles.flags[k] = static_cast<uint8_t>(particles.flags[k] | kSurface);
             ++exposed;
         }

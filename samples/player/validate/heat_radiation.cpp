@@ -3,6 +3,7 @@
 //
 // What heat sources give to a surface, against integrals over the sources that this file takes for itself, and who
 // stands in the way.
+#include "validate/hare.h"
 #include "validate/heat_lab.h"
 #include "validate/validate.h"
 
@@ -343,6 +344,7 @@ void darkSide(Findings& found, const char* name, const scene::TriMesh& mesh, V l
 
 void darkSides(Findings& found) {
     darkSide(found, "torus", scene::makeTorus(0.05f, 0.015f), {0.9, 0.25, 0.3});
+    darkSide(found, "hare", makeHare(), {0.6, 0.7, -0.4});
     // The Stanford scan, where the package glmark2-data put it.
     const char* file = "/usr/share/glmark2/models/bunny.obj";
     if (!std::filesystem::exists(file)) return;

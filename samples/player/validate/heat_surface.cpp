@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What surfaces lose and take up, and what that melts.
+#include "validate/hare.h"
 #include "validate/heat_lab.h"
 #include "validate/validate.h"
 
@@ -58,7 +59,7 @@ thawLedger ledgerOf(const Lab& lab) {
 
 void area(Findings& found) {
     const auto row = [&](const std::string& what, const scene::TriMesh& mesh, float spacing) {
-        Lab lab(spacing, 40000, {0, 0, 0}, 1);
+        Lab lab(spacing, 120000, {0, 0, 0}, 1);
         thawWorld_SetAmbient(lab.world(), 0, 0);
         thawMaterialDef m = stays(1000, 1000, 1);
         m.emissivity = 1;
@@ -77,6 +78,11 @@ void area(Findings& found) {
             scene::makeBox({edge * 0.002f, edge * 0.002f, edge * 0.002f}), 0.002f);
     for (const float spacing : {0.002f, 0.0015f})
         row("candle with drips, at " + std::to_string(spacing).substr(0, 6) + " m", scene::makeCandle(), spacing);
+    for (const float spacing : {0.002f, 0.0015f, 0.0012f})
+        row("hare, at " + std::to_string(spacing).substr(0, 6) + " m", makeHare(), spacing);
+    for (const float layers : {0.5f, 0.8f, 2.0f})
+        row("sheet of " + std::to_string(layers).substr(0, 3) + " layers",
+            scene::makeBox({0.06f, layers * 0.002f, 0.06f}), 0.002f);
     row("torus, tube of radius 5 spacings", scene::makeTorus(0.03f, 0.01f), 0.002f);
 }
 
