@@ -68,7 +68,7 @@ TEST_CASE("motion: the viscous pairs are symmetric for unequal sizes and viscosi
     }
     const PairLists lists(s.neighbors);
     pairForces({lists, s.particles.position.data(), trait.data(), s.volume.data(), s.invDensity.data(), 0.01f, true,
-                change.data(), diagonal.data(), offDiagonal.data(), coefficient.data()},
+                nullptr, change.data(), diagonal.data(), offDiagonal.data(), coefficient.data()},
                0, s.neighbors.moverGroups);
 
     const auto entryOf = [&](int i, int j) {
@@ -97,7 +97,7 @@ TEST_CASE("motion: the viscous pairs are symmetric for unequal sizes and viscosi
     for (size_t i = 0; i < static_cast<size_t>(movers); ++i) trait[i].z = s.particles.velocity[i].w;
     coefficient.resize(s.neighbors.entries.size());
     pairForces({PairLists(s.neighbors), s.particles.position.data(), trait.data(), s.volume.data(), s.invDensity.data(),
-                0.01f, true, change.data(), diagonal.data(), offDiagonal.data(), coefficient.data()},
+                0.01f, true, nullptr, change.data(), diagonal.data(), offDiagonal.data(), coefficient.data()},
                0, s.neighbors.moverGroups);
     double sum[3] = {}, size = 0;
     for (size_t i = 0; i < static_cast<size_t>(movers); ++i) {
