@@ -122,7 +122,7 @@ struct HeatFixture {
     }
     void expose() {
         exposed = findExposure(particles, neighbors, volume.data(), colliders.data(),
-                               static_cast<int>(colliders.size()), tasks);
+                               static_cast<int>(colliders.size()), nullptr, tasks);
     }
     HeatFrame frame(double dt) {
         return {particles,

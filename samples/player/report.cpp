@@ -203,6 +203,9 @@ std::string Report::json() const {
                         {"heatCycles", plan_.work.heatCycles},
                         {"rayRefresh", plan_.work.rayRefresh},
                         {"raysPerSource", plan_.work.raysPerSource},
+                        {"finestLevel", plan_.work.finestLevel},
+                        {"coarsestLevel", plan_.work.coarsestLevel},
+                        {"splits", plan_.work.splits},
                         {"predictedMilliseconds", plan_.predictedMs}};
     root["motion"] = {{"maxSpeed", c.maxSpeed},
                       {"maxCompression", c.maxCompression},
@@ -225,18 +228,19 @@ std::string Report::json() const {
 std::string Report::csvHeader() const {
     std::string out =
         "frame,time,ms,predicted_ms,status,particles,moving,surface,melted,sub_steps,pressure,viscosity,rays,"
-        "max_speed,max_compression,max_temperature";
+        "max_speed,max_compression,max_temperature,level0,level1,level2,level3,splits,merges";
     for (int s = 0; s < thawStage_count; ++s) out += ",ms_" + std::string(thawStageName(thawStage(s)));
     return out + "\n";
 }
 
 std::string Report::csvLine() const {
     const thawCounters& c = counters_;
-    std::string out = formatted("%zu,%.6g,%.4f,%.4f,%u,%d,%d,%d,%.6g,%d,%d,%d,%d,%.6g,%.6g,%.6g", steps(), c.time,
-                                milliseconds_.empty() ? 0.0 : milliseconds_.back(), double(plan_.predictedMs),
-                                lastStatus_, c.particles, c.moving, c.surface, double(c.meltedFraction), c.subSteps,
-                                c.pressureIterations, c.viscosityIterations, c.rays, double(c.maxSpeed),
-                                double(c.maxCompression), double(c.maxTemperature));
+    std::string out =
+        formatted("%zu,%.6g,%.4f,%.4f,%u,%d,%d,%d,%.6g,%d,%d,%d,%d,%.6g,%.6g,%.6g,%d,%d,%d,%d,%d,%d", steps(), c.time,
+                  milliseconds_.empty() ? 0.0 : milliseconds_.back(), double(plan_.predictedMs), lastStatus_,
+                  c.particles, c.moving, c.surface, double(c.meltedFraction), c.subSteps, c.pressureIterations,
+                  c.viscosityIterations, c.rays, double(c.maxSpeed), double(c.maxCompression), double(c.maxTemperature),
+                  c.levels[0], c.levels[1], c.levels[2], c.levels[3], c.splits, c.merges);
     for (float ms : profile_.stage) out += formatted(",%.4f", double(ms));
     return out + "\n";
 }

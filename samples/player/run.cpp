@@ -48,6 +48,14 @@ void RunOptions::addTo(CLI::App& command) {
         .add_option("--work", work,
                     "Fixed work instead: sub-steps,pressure,viscosity iterations[,least sub-steps], such as 4,4,12")
         ->excludes(ms);
+    CLI::Option* fixed = command.add_option(
+        "--fixed-level", fixedLevel, "All particles of one level, 0 (finest) to 3, as far as they can be that coarse");
+    command
+        .add_option("--coarsest-level", coarsestLevel,
+                    "Solids start and stay as coarse as this, 0 to 3, until heat or melt comes near (default: what the "
+                    "scene says)")
+        ->excludes(fixed);
+    command.add_flag("--no-adaptive", notAdaptive, "The finest particles everywhere: --fixed-level 0")->excludes(fixed);
     command.add_option("--threads", threads, "Threads that take part, 1 to 64")->capture_default_str();
     command.add_option("--out", out,
                        "Folder for table.txt, table.json, pictures and meshes; made when it is not there");
@@ -91,6 +99,17 @@ thawBudget makeBudget(const scene::Scene& scene, double budgetMs, const std::str
     return budget;
 }
 
+void applyLevels(const RunOptions& o, scene::Scene& scene, thawBudget& budget) {
+    const int fixed = o.notAdaptive ? 0 : o.fixedLevel;
+    const int coarsest = fixed >= 0 ? fixed : o.coarsestLevel;
+    if (o.fixedLevel != -1) checkRange("--fixed-level", o.fixedLevel, 0, 3);
+    if (o.coarsestLevel != -1) checkRange("--coarsest-level", o.coarsestLevel, 0, 3);
+    if (coarsest < 0) return;
+    for (scene::Body& b : scene.bodies) b.coarsestLevel = coarsest;
+    budget.work.coarsestLevel = coarsest;
+    if (fixed >= 0) budget.work.finestLevel = fixed;
+}
+
 int framesOf(double seconds) { return std::max(1, int(std::lround(seconds / kFrameSeconds))); }
 
 uint32_t timedStep(thawWorld* world, const thawBudget& budget, Report& report) {
@@ -118,13 +137,14 @@ void Progress::frame(int done, const Report& report) {
     open_ = terminal_;
 }
 
-int runScene(const scene::Scene& scene, const RunOptions& o) {
+int runScene(scene::Scene scene, const RunOptions& o) {
     const double seconds = o.seconds != 0.0 ? o.seconds : double(scene.defaults.seconds);
     checkRange("--seconds", seconds, 0.01, 3600.0, "s");
     checkRange("--threads", o.threads, 1, 64);
     checkRange("--pictures", o.pictures, 0, 1000);
     checkRange("--most-over", o.mostOver, 0, 100, "%");
-    const thawBudget budget = makeBudget(scene, o.budgetMs, o.work);
+    thawBudget budget = makeBudget(scene, o.budgetMs, o.work);
+    applyLevels(o, scene, budget);
     const PictureView view = parseView("--view", o.view);
     const PictureSize size = parseSize("--picture-size", o.size);
     if (!o.mesh.empty() && o.mesh != "ply" && o.mesh != "obj")

@@ -16,6 +16,8 @@ struct RunOptions {
     double budgetMs = 0.0; // 0: what the scene says
     std::string work;      // "subSteps,pressure,viscosity"; empty: milliseconds
     int threads = defaultThreads();
+    int fixedLevel = -1, coarsestLevel = -1; // -1: what the scene says
+    bool notAdaptive = false;
     std::string out, json, csv, mesh, view = "shaded", size = "960x540";
     int pictures = 0;
     double mostOver = 100.0; // %
@@ -26,6 +28,8 @@ struct RunOptions {
 
 // Milliseconds of the options or the scene, or the work units of the options. Throws InputError.
 thawBudget makeBudget(const scene::Scene& scene, double budgetMs, const std::string& work);
+// Levels of the options, into the bodies and the budget. Throws InputError.
+void applyLevels(const RunOptions& options, scene::Scene& scene, thawBudget& budget);
 // Steps of 1/60 s that make up a time, at least one.
 int framesOf(double seconds);
 // One timed step; what the caller does afterwards is not counted.
@@ -45,6 +49,6 @@ private:
 };
 
 // Builds, steps, tells, writes. Returns the exit code.
-int runScene(const scene::Scene& scene, const RunOptions& options);
+int runScene(scene::Scene scene, const RunOptions& options);
 
 } // namespace thaw::player

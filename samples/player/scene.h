@@ -78,6 +78,7 @@ struct Body {
     int material = 0;         // index into Scene::materials
     float temperature = NAN;  // K, range 100..10000; NaN: ambient
     std::vector<Part> parts;  // at most 64, later ones count where they overlap
+    int coarsestLevel = 0;    // highest level that its solid starts with, 0..3
     bool anchored = true;     // stuck to the collider that it touches; false: stands free
     std::vector<Paint> paint; // at most 64, one after the other
 };

@@ -214,6 +214,7 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
         }
         d.parts = parts.data(), d.partCount = int32_t(parts.size());
         d.anchored = b.anchored;
+        d.coarsestLevel = b.coarsestLevel;
         thawBodyId id{};
         thawMeshReport report{};
         const thawResult result = thawCreateBody(raw, &d, &id, &report);

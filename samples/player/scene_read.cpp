@@ -504,6 +504,7 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         readPlacement(r, body.placement);
         r.kelvin("temperature", body.temperature);
         r.flag("anchored", body.anchored);
+        r.integer("coarsestLevel", body.coarsestLevel, 0, 3);
         body.material = readBodyMaterial(r, scene, body.name);
         r.list("parts", 64, [&](const json& part, const std::string& where) {
             Reader q(part, where, file);

@@ -213,6 +213,7 @@ std::string writeScene(const Scene& scene) {
                                if (!std::isnan(paint.absorptivity)) p.add("absorptivity", shortest(paint.absorptivity));
                                return p.end();
                            }));
+                 if (body.coarsestLevel > 0) o.add("coarsestLevel", std::to_string(body.coarsestLevel));
                  return o.end();
              }));
     root.add("colliders", list(scene.colliders, 2, [](const Collider& collider, int indent) {

@@ -290,7 +290,7 @@ TEST_CASE("api: every bit, stage and reason has words") {
     for (uint32_t bit = 1; bit <= thawStep_overBudget; bit <<= 1) CHECK(std::strlen(thawStepStatusString(bit)) > 0);
     CHECK(std::strlen(thawStepStatusString(0)) == 0);
     for (int s = 0; s < thawStage_count; ++s) CHECK(std::strlen(thawStageName(static_cast<thawStage>(s))) > 0);
-    for (int r = 0; r <= thawReason_interval; ++r) CHECK(std::strlen(thawReasonString(static_cast<thawReason>(r))) > 0);
+    for (int r = 0; r <= thawReason_oneLevel; ++r) CHECK(std::strlen(thawReasonString(static_cast<thawReason>(r))) > 0);
     CHECK(thawGetVersion() == THAW_VERSION);
     CHECK(contains(thawGetBuildString(), "thaw "));
 }

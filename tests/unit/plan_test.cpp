@@ -10,7 +10,7 @@ using namespace thaw;
 
 namespace {
 
-constexpr thawWork kFull{4, 4, 12, 1, 1.0f, 1, 80, 16};
+constexpr thawWork kFull{4, 4, 12, 1, 1.0f, 1, 80, 16, 0, 3, 2048};
 
 Needs busy() {
     Needs n;
@@ -60,7 +60,10 @@ float frame(Governor& g, const Machine& m, const Needs& n, float budget, thawWor
 TEST_CASE("plan: stages run only where the scene asks, and say why not") {
     Needs n = busy();
     thawPlan p = makePlan(n, kFull);
-    for (int s = 0; s < thawStage_count; ++s) CHECK(p.enabled[s]);
+    for (int s = 0; s < thawStage_count; ++s) CHECK(p.enabled[s] == (s != thawStage_levels));
+    CHECK(p.reason[thawStage_levels] == thawReason_oneLevel);
+    n.levels = true;
+    CHECK(makePlan(n, kFull).enabled[thawStage_levels]);
 
     n.movers = 0;
     p = makePlan(n, kFull);
@@ -84,6 +87,10 @@ TEST_CASE("plan: stages run only where the scene asks, and say why not") {
     CHECK(p.reason[thawStage_loss] == thawReason_equilibrium);
     CHECK_FALSE(p.enabled[thawStage_phase]);
     CHECK_FALSE(p.enabled[thawStage_stats]);
+    CHECK(p.reason[thawStage_levels] == thawReason_nothingChanged);
+    thawWork coarser = kFull;
+    coarser.finestLevel = 1, n.levels = true;
+    CHECK(makePlan(n, coarser).enabled[thawStage_levels]);
     n.holdStale = true;
     p = makePlan(n, kFull);
     CHECK(p.enabled[thawStage_phase]);
@@ -175,7 +182,7 @@ TEST_CASE("governor: many sub-cycles of heat are cut to what fits") {
 TEST_CASE("governor: never more than the host's limit") {
     Governor g;
     float predicted;
-    thawWork limit{2, 3, 5, 2, 0.5f, 1, 10, 16};
+    thawWork limit{2, 3, 5, 2, 0.5f, 1, 10, 16, 0, 3, 2048};
     thawWork w = g.choose(busy(), 1e4f, limit, 8, predicted);
     CHECK(w.subSteps <= 2);
     CHECK(w.pressureIterations == 3);

@@ -64,7 +64,8 @@ typedef enum thawStepStatus {
     thawStep_neighborsClipped = 1 << 4,  /* some particle had more neighbours than a list holds */
     thawStep_badParticlesRemoved = 1 << 5, /* some particle became not finite and was taken out; see the ledger */
     thawStep_raysReduced = 1 << 6,         /* only part of the visibility rays was refreshed */
-    thawStep_overBudget = 1 << 7           /* the step took longer than its budget in milliseconds */
+    thawStep_overBudget = 1 << 7,          /* the step took longer than its budget in milliseconds */
+    thawStep_splitsClipped = 1 << 8        /* some particles stayed coarser than they should be: maxParticles, or splits */
 } thawStepStatus;
 
 /* THAW_VERSION of the library that runs; differs from the macro when headers and library differ. */
@@ -292,6 +293,9 @@ typedef struct thawBodyDef {
     thawVec3 angularVelocity;  /* rad/s about the centre of mass, right-handed; each |.| <= 1000, default 0 */
     const thawBodyPart* parts; /* partCount of them; where parts overlap the later one counts; default NULL */
     int32_t partCount;         /* range 0..64, default 0 */
+    int32_t coarsestLevel; /* its solid starts with particles of up to 2^this times the mass of the finest, which split
+                              before heat or anything that moves gets to them; range 0..3, default 0. Elastic solids
+                              start at 0 whatever is set */
     bool anchored; /* default true: solid that hangs together with a collider is stuck to it. false: it stands free, a
                       rigid piece that can be pushed and fall over */
 } thawBodyDef;
@@ -434,6 +438,7 @@ typedef enum thawStage {
     thawStage_viscosity,
     thawStage_pressure,
     thawStage_collision, /* walls, swept motion, positions */
+    thawStage_levels,    /* coarse particles split, fine ones merge */
     thawStage_stats,     /* ledger and counters */
     thawStage_count
 } thawStage;
@@ -448,7 +453,8 @@ typedef enum thawReason {
     thawReason_nothingExposed, /* no surface that loses or takes up heat */
     thawReason_equilibrium,    /* all at ambient temperature and no source */
     thawReason_timeScaleZero,  /* heat is switched off by thermalTimeScale = 0 */
-    thawReason_interval        /* not due in this step: see heatInterval */
+    thawReason_interval,       /* not due in this step: see heatInterval */
+    thawReason_oneLevel        /* no solid that was filled with coarse particles */
 } thawReason;
 /* A stage's name and a reason in words; "" when out of range. Static storage. */
 THAW_API const char* thawStageName(thawStage stage);
@@ -468,6 +474,9 @@ typedef struct thawWork {
                               something melts: a melt front by up to a quarter at steps of Fourier number 10
                               (heat time x diffusivity / particleSpacing^2), by up to 80 % at 40 to 160 */
     int32_t raysPerSource; /* of a particle to a source with an extent; range 1..64, default 16 */
+    int32_t finestLevel;   /* particles get no finer than 2^this times the finest mass; range 0..3, default 0 */
+    int32_t coarsestLevel; /* and no coarser; range 0..3, default 3; finestLevel goes before it */
+    int32_t splits;        /* particles that may come to be by splitting in a step; range 1..1e6, default 2048 */
 } thawWork;
 
 typedef enum thawBudgetMode {
@@ -521,6 +530,7 @@ typedef struct thawParticleView {
     const uint8_t* materials;      /* index1 - 1 of the thawMaterialId */
     const uint8_t* flags;          /* thawParticleFlags */
     const uint8_t* absorptivities; /* 1 + 254 x the painted one; 0: the material's */
+    const uint8_t* levels;         /* mass 2^level of the finest, 0..3 */
 } thawParticleView;
 THAW_API void thawWorld_GetParticles(const thawWorld* world, thawParticleView* out);
 
@@ -580,6 +590,8 @@ typedef struct thawCounters {
     int32_t bodies, colliders, heatSources, materials;
     int32_t subSteps, pressureIterations, viscosityIterations; /* of the last step; iterations summed over sub-steps */
     int32_t rays, neighborsMax;
+    int32_t levels[4];     /* particles by level */
+    int32_t splits, merges; /* particles that came and went by them in the last step */
     float neighborsMean;
     float maxSpeed;          /* m/s */
     float maxCompression;    /* 1, largest density error of moving particles */

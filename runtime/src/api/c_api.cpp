@@ -210,6 +210,9 @@ void checkWork(Check& c, const thawWork& w) {
     c.range("work.rayRefresh", w.rayRefresh, 0.05, 1);
     c.range("work.heatCycles", w.heatCycles, 1, 1000);
     c.range("work.raysPerSource", w.raysPerSource, 1, 64);
+    c.range("work.finestLevel", w.finestLevel, 0, 3);
+    c.range("work.coarsestLevel", w.coarsestLevel, 0, 3);
+    c.range("work.splits", w.splits, 1, 1e6);
 }
 
 void checkBudget(Check& c, const thawBudget& b) {
@@ -258,7 +261,7 @@ thawBudget defaultBudget() {
     b.structSize = sizeof b, b.cookie = thaw::kDefCookie;
     b.mode = thawBudget_work;
     b.milliseconds = 4;
-    b.work = {4, 8, 12, 1, 1.0f, 1, 80, 16};
+    b.work = {4, 8, 12, 1, 1.0f, 1, 80, 16, 0, 3, 2048};
     return b;
 }
 
@@ -315,6 +318,8 @@ const char* thawStepStatusString(uint32_t bit) {
         return "a particle that was not finite was removed";
     case thawStep_raysReduced:
         return "only part of the rays was refreshed";
+    case thawStep_splitsClipped:
+        return "some particles stayed coarser than they should be: maxParticles is reached, or splits too low";
     case thawStep_overBudget:
         return "the step took longer than its budget";
     default:
@@ -323,9 +328,9 @@ const char* thawStepStatusString(uint32_t bit) {
 }
 
 const char* thawStageName(thawStage stage) {
-    static constexpr const char* kNames[thawStage_count] = {"inputs",     "neighbors", "exposure",  "radiation",
-                                                            "conduction", "loss",      "phase",     "forces",
-                                                            "viscosity",  "pressure",  "collision", "stats"};
+    static constexpr const char* kNames[thawStage_count] = {
+        "inputs", "neighbors", "exposure", "radiation", "conduction", "loss", "phase",
+        "forces", "viscosity", "pressure", "collision", "levels",     "stats"};
     return stage >= 0 && stage < thawStage_count ? kNames[stage] : "";
 }
 
@@ -349,6 +354,8 @@ const char* thawReasonString(thawReason reason) {
         return "thermalTimeScale is 0";
     case thawReason_interval:
         return "not due in this step";
+    case thawReason_oneLevel:
+        return "no solid that could be coarse";
     }
     return "";
 }
@@ -459,6 +466,7 @@ thawResult thawCreateBody(thawWorld* world, const thawBodyDef* def, thawBodyId* 
         if (!std::isnan(def->temperature)) c.range("temperature", def->temperature, 0, 1e5);
         c.finite("velocity", def->velocity, 1000);
         c.finite("angularVelocity", def->angularVelocity, 1000);
+        c.range("coarsestLevel", def->coarsestLevel, 0, 3);
         if (c.ok()) c.mesh("mesh", def->mesh);
         if (c.ok()) checkParts(w, c, *def);
         if (!c.ok()) return;
@@ -707,6 +715,7 @@ void thawWorld_GetParticles(const thawWorld* world, thawParticleView* out) {
     out->materials = p.material.data();
     out->flags = p.flags.data();
     out->absorptivities = p.absorbs.data();
+    out->levels = p.level.data();
 }
 
 void thawInitSurfaceDef(thawSurfaceDef* def) {

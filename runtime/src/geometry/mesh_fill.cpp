@@ -121,6 +121,7 @@ struct Filler {
     std::vector<float> mobility; // 1 near the surface, 0 deep inside
     size_t pinned = 0;           // the first ones: on sharp edges
     size_t inserted = 0;
+    Vec3 firstPlane, planeStep{1, 1, 1}; // of the last lattice, local
 
     Filler(const CleanMesh& m, float s, Tasks& t) : mesh(m), spacing(s), tasks(t), tree(m.vertices, m.indices) {
         center = 0.5f * (mesh.bounds.lower + mesh.bounds.upper);
@@ -162,6 +163,8 @@ struct Filler {
             first[a] = -0.5f * float(n[a] - 1) * step[a];
             n[a] += 2, first[a] -= step[a]; // one more on both sides, for what the rounding left
         }
+        planeStep = {step[0], step[1], step[2]};
+        firstPlane = {first[0] + step[0], first[1] + step[1], first[2] + step[2]};
         struct Candidate {
             Vec3 p;
             float key;
@@ -560,7 +563,7 @@ std::string number(const char* text, double a, double b) {
 } // namespace
 
 thawResult fillMesh(const CleanMesh& mesh, float spacing, int maxParticles, Tasks& tasks, std::vector<Vec3>& out,
-                    float& particleVolume, std::string& message) {
+                    float& particleVolume, std::string& message, FillLattice* lattice) {
     out.clear(), message.clear(), particleVolume = 0;
     if (!(spacing > 0) || !std::isfinite(spacing)) {
         message = number("spacing = %g m must be > 0", double(spacing), 0);
@@ -616,6 +619,7 @@ thawResult fillMesh(const CleanMesh& mesh, float spacing, int maxParticles, Task
                          100 * thin, double(spacing));
     for (Vec3 p : fill.points) out.push_back(fill.center + spacing * p);
     particleVolume = float(volume / double(out.size()));
+    if (lattice) *lattice = {fill.center + spacing * fill.firstPlane, spacing * fill.planeStep, spacing};
     return thawResult_ok;
 }
 

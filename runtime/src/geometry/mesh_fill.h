@@ -41,6 +41,12 @@ struct DistanceGrid {
 // Grid that covers the bounds grown by `margin`. cell is enlarged when it would need more than maxNodes nodes.
 DistanceGrid makeDistanceGrid(const CleanMesh& mesh, float cell, float margin, size_t maxNodes, Tasks& tasks);
 
+// The cubic lattice that a filling started from: its planes lie at origin + k step.
+struct FillLattice {
+    Vec3 origin, step; // m
+    float spacing = 0; // m
+};
+
 // Positions that fill the inside at `spacing`, about volume / spacing^3 of them: a cubic lattice inside, the outer four
 // layers relaxed so that the outermost lies spacing/2 below the surface (0.3 at least, less only where the part is
 // thinner than that) and no two are closer than 0.75 spacing. Surface points have a particle within about one spacing.
@@ -50,6 +56,6 @@ DistanceGrid makeDistanceGrid(const CleanMesh& mesh, float cell, float margin, s
 // nothing fits, naming volume and spacing; (capacity) when more than maxParticles are needed, naming both, or when the
 // mesh is so large that looking through its box would take more than 2^27 bricks.
 thawResult fillMesh(const CleanMesh& mesh, float spacing, int maxParticles, Tasks& tasks, std::vector<Vec3>& out,
-                    float& particleVolume, std::string& message);
+                    float& particleVolume, std::string& message, FillLattice* lattice = nullptr);
 
 } // namespace thaw

@@ -149,6 +149,8 @@ Heat::~Heat() = default;
 
 uint64_t Heat::hash(uint64_t h) const { return impl_->radiation.hash(h); }
 
+const float* Heat::power() const { return impl_->radiation.power(); }
+
 void Heat::radiation(const HeatFrame& f) {
     Impl& m = *impl_;
     m.begin(stats_);

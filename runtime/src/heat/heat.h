@@ -26,6 +26,7 @@ public:
     void integrate(const HeatFrame& f); // absorbs if loss() did not; bounds; temperature, liquid fraction
     const HeatStats& stats() const { return stats_; }
     // Mixes in what lives on beside the particles.
+    const float* power() const; // per row, W taken up from the sources, of the last radiation()
     uint64_t hash(uint64_t h) const;
 
 private:

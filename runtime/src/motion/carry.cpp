@@ -30,12 +30,14 @@ float beginCarry(Particles& p, Collider* colliders, int colliderCount, Vec3 grav
     return std::sqrt(fastest);
 }
 
-void endCarry(Particles& p, const Collider* colliders, int colliderCount) {
+void endCarry(Particles& p, Reference& reference, const Collider* colliders, int colliderCount) {
     for (int r = p.moverCount; r < p.count; ++r) {
         const size_t i = static_cast<size_t>(r);
         const int c = static_cast<int>(p.anchor[i]) - 1;
         if (c < 0 || c >= colliderCount || !colliders[c].moves) continue;
-        p.position[i].setXyz(p.position[i].xyz() + colliders[c].displacement(p.position[i].xyz()));
+        const Vec3 x = p.position[i].xyz(), to = x + colliders[c].displacement(x);
+        p.position[i].setXyz(to);
+        reference.turn(p, i, [&](Vec3 v) { return x + v + colliders[c].displacement(x + v) - to; });
     }
 }
 

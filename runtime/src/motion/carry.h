@@ -4,6 +4,7 @@
 
 #include "geometry/colliders.h"
 #include "particles/particles.h"
+#include "particles/reference.h"
 
 // What is held goes where its collider goes, rigidly.
 namespace thaw {
@@ -15,6 +16,6 @@ inline bool toldApart(const Collider& c) { return c.alive && (c.kinematic || c.r
 // weight and inertia of what hangs on them. Returns the speed of the fastest, m/s.
 float beginCarry(Particles& particles, Collider* colliders, int colliderCount, Vec3 gravity, float dt);
 // After it: their new places.
-void endCarry(Particles& particles, const Collider* colliders, int colliderCount);
+void endCarry(Particles& particles, Reference& reference, const Collider* colliders, int colliderCount);
 
 } // namespace thaw

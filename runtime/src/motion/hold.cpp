@@ -229,9 +229,14 @@ void Hold::letGo(const HoldFrame& f, size_t i) const {
     p.anchor[i] = 0; // its velocity stays that of what it hung on
     p.velocityChange[i] = {};
     p.stiffness[i] = 0;
-    if (!f.rigid.any()) return;
+    const bool referred = p.fine[i];
+    p.fine[i] = 0;
+    if (!f.rigid.any() && !referred) return;
     forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
-        if (j < static_cast<uint32_t>(p.count) && p.piece[j]) f.rigid.wake(p.piece[j]);
+        if (j >= static_cast<uint32_t>(p.count)) return false;
+        if (p.piece[j]) f.rigid.wake(p.piece[j]);
+        // What it covered may be bare from now on, whatever the reference says.
+        if (p.level[j] == 0) p.fine[j] = 0;
         return true;
     });
 }

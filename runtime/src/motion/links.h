@@ -14,7 +14,9 @@ inline constexpr float kLink = 1.5f, kAnchor = 1.0f;
 
 inline bool linked(const Particles& p, uint32_t i, uint32_t j) {
     const Vec4 x = p.position[i], y = p.position[j];
-    const float reach = kLink * 0.5f * (x.w + y.w) / kSupport;
+    // Pairs of level 1 lie end to end in two of their edges: 1.59 spacings.
+    const float stretch = p.level[i] == 1 && p.level[j] == 1 ? 1.1f : 1.0f;
+    const float reach = stretch * kLink * 0.5f * (x.w + y.w) / kSupport;
     const Vec3 d = y.xyz() - x.xyz();
     return dot(d, d) < reach * reach;
 }

@@ -10,6 +10,7 @@
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
 #include "particles/particles.h"
+#include "particles/reference.h"
 
 namespace thaw {
 
@@ -34,6 +35,7 @@ struct MotionFrame {
     Bonds* bonds = nullptr;          // null, or without any: nothing is elastic
     Rigid* rigid = nullptr;          // pieces that move as one, when there are any
     RigidLiquid* coupling = nullptr; // with rigid
+    Reference* reference = nullptr;  // of untouched solids, when there are any that are coarse
 
     BondFrame bondFrame() const {
         return {particles, neighbors, volume, materials, colliders, colliderCount, tasks, dt, gravity, rigid};

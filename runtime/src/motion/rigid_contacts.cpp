@@ -65,10 +65,8 @@ void Rigid::findWalls(const MotionFrame& f, uint32_t slot) {
     walls.gather(f.colliders, colliderBounds_.data(), f.colliderCount, b.bounds, reach);
     if (walls.empty()) return;
     const uint32_t* rows = rowsOf(b);
-    for (uint32_t k = 0; k < b.rows; ++k) {
-        const size_t i = rows[k];
-        const Vec3 x = p.position[i].xyz();
-        const double edge = static_cast<double>(p.position[i].w) / kSupport, radius = 0.5 * edge;
+    const auto touch = [&](Vec3 x, double edge, uint32_t id) {
+        const double radius = 0.5 * edge;
         walls.forNear(x, reach, [&](float distance, Vec3 n, const Collider& c) {
             const double gap = static_cast<double>(distance) - radius;
             const bool plane = c.type == thawCollider_plane;
@@ -76,11 +74,24 @@ void Rigid::findWalls(const MotionFrame& f, uint32_t slot) {
             const double near = far + static_cast<double>(length(way));
             if (!(gap < (plane ? near : std::min(near, kCurvedMargin * spacing)))) return;
             RigidContact q;
-            q.a = slot, q.other = RigidContact::kWall | static_cast<uint32_t>(&c - f.colliders), q.id = p.id[i];
+            q.a = slot, q.other = RigidContact::kWall | static_cast<uint32_t>(&c - f.colliders), q.id = id;
             q.normal = wide(n), q.point = wide(x) - radius * q.normal, q.gap = gap, q.spacing = edge;
             q.friction = c.friction, q.surface = wide(c.velocityAt(x));
             candidates_.push(q);
         });
+    };
+    for (uint32_t k = 0; k < b.rows; ++k) {
+        const size_t i = rows[k];
+        const Vec3 x = p.position[i].xyz();
+        if (!f.reference || p.level[i] == 0 || !p.fine[i]) {
+            touch(x, static_cast<double>(p.position[i].w) / kSupport, p.id[i]);
+            continue;
+        }
+        // A coarse one has its points' corners; told apart by their place in the reference, behind all ids.
+        bool near = false;
+        walls.forNear(x, reach + p.position[i].w, [&](float, Vec3, const Collider&) { near = true; });
+        if (near)
+            f.reference->forPoints(p, i, [&](Vec3 at, uint32_t point) { touch(at, spacing, 0x80000000u + point); });
     }
 }
 

@@ -201,7 +201,9 @@ void Rigid::followSolids(const MotionFrame& f, uint32_t slot) {
                 f.neighbors.forFixedCandidates(at, support, [&](int j) {
                     const size_t i = static_cast<size_t>(j);
                     if (p.piece[i] != other) return;
-                    nearest = std::min(nearest, static_cast<double>(length(p.position[i].xyz() - at)));
+                    // What is coarse reaches farther.
+                    const float wider = 0.5f * (p.position[i].w + p.position[rows[k]].w) / support;
+                    nearest = std::min(nearest, static_cast<double>(length(p.position[i].xyz() - at) / wider));
                 });
                 if (n == 0 && nearest < kNear * spacing) break;
                 if (nearest <= 1.01 * kStop * spacing) {
@@ -243,6 +245,9 @@ void Rigid::integrate(const MotionFrame& f, uint32_t slot) {
     const double energy = dot(b.spin, angular);
     b.center = to;
     if (!turns) return;
+    if (f.reference)
+        for (uint32_t k = 0; k < b.rows; ++k)
+            f.reference->turn(p, rows[k], [&](Vec3 v) { return narrow(turn.apply(wide(v))); });
     b.inertia = {};
     for (uint32_t k = 0; k < b.rows; ++k) {
         const size_t i = rows[k];

@@ -64,64 +64,123 @@ constexpr Node kBySlope[] = {{0.0f, 0.0f}, {1.272f, 0.158f}, {1.803f, 0.293f}, {
 constexpr float kContactReach = 1.5f;
 float contact(float distanceInSpacings) { return std::clamp((kContactReach - distanceInSpacings) / 0.7f, 0.0f, 1.0f); }
 
+bool covered(float share, Vec3 gradient, float h) {
+    return 1 - share <= kArea[0].at && length(gradient) * h < kLeastGradient;
+}
+
+struct Size {
+    float support;     // m
+    float edge;        // m, of the cube of its volume
+    float thinner = 1; // how much less volume than the cube of its spacing it has
+};
+
+// Whether a particle is bare, by the share of its support that is filled and the gradient of that; then its area in m^2
+// and the direction outward, zero where it faces nowhere.
+bool isBare(float share, Vec3 gradient, const Size& size, Vec3 x, const WallFinder& walls, float& area, Vec3& outward) {
+    const float h = size.support;
+    if (covered(share, gradient, h)) return false;
+    walls.forNear(x, kContactReach / kSupport * h, [&](float distance, Vec3 n, const Collider&) {
+        const float a = contact(distance * (kSupport / h));
+        if (a == 0) return;
+        // Divided, not added: the shares of bare sides multiply to a good approximation.
+        share /= 1 - kFaceMissing * a;
+        gradient = gradient - (kFaceGradient * a / h) * n;
+    });
+    const float steep = length(gradient) * h;
+    const float slope = steep / share, bySlope = interpolate(kBySlope, slope);
+    const bool faceless = steep < kLeastGradient;
+    // A film in the air of one layer has the volume of its thickness: how full its support is says nothing about how
+    // thick it is, only how many there are.
+    const float missing = faceless ? 1 - share * size.thinner : std::max(1 - share, bySlope);
+    // Less bare than that is the disorder of a liquid's inside: 1000 of the candle's 3400 at the surface were, and took
+    // rays.
+    if (missing < kArea[0].at || (faceless && missing < kSurelyBare)) return false;
+    float sides;
+    if (faceless) {
+        sides = interpolate(kFaceless, missing);
+    } else {
+        const float denser = std::max(0.0f, share / (1 - bySlope) - 1) / kDenser;
+        sides = interpolate(kArea, missing) + std::min(denser, kMostDense) * interpolate(kDense, slope);
+    }
+    if (!(sides > 0)) return false;
+    const float side = faceless ? h / kSupport : size.edge;
+    area = sides * side * side;
+    outward = steep > kLeastDirection ? normalizeOr(-gradient, {}) : Vec3{};
+    return true;
+}
+
+// Of the finest points of a row.
+bool isBareByReference(const Particles& p, size_t i, const Reference& reference, const Size& size,
+                       const WallFinder& walls, float& area, Vec3& outward) {
+    const float finer = kSupport / supportOf(1, p.level[i]);
+    const Size each{size.support * finer, size.edge * finer, size.thinner};
+    Vec3 sum;
+    area = 0;
+    reference.forPoints(p, i, [&](Vec3 x, uint32_t k) {
+        float own;
+        Vec3 normal;
+        if (isBare(reference.point[k].w, reference.slope[k].xyz(), each, x, walls, own, normal))
+            area += own, sum = sum + own * normal;
+    });
+    outward = normalizeOr(sum, {});
+    return area > 0;
+}
+
 } // namespace
 
 int findExposure(Particles& particles, const Neighbors& neighbors, const float* volume, const Collider* colliders,
-                 int colliderCount, Tasks& tasks) {
+                 int colliderCount, const Reference* reference, Tasks& tasks) {
     std::atomic<int> total{0};
+    const auto besideCoarse = [&](int i) {
+        bool coarse = false;
+        forNeighbors(neighbors, i, [&](uint32_t j) {
+            coarse = particles.level[j] > 0; // of the dummies 0
+            return !coarse;
+        });
+        return coarse;
+    };
     tasks.forBlocks(particles.count, kBlock, [&](int begin, int end, int, int) {
         Box around;
         float reach = 0;
         for (int i = begin; i < end; ++i) {
-            const Vec4 x = particles.position[static_cast<size_t>(i)];
-            around.grow(x.xyz()), reach = std::max(reach, kContactReach / kSupport * x.w);
+            const size_t k = static_cast<size_t>(i);
+            const Vec4 x = particles.position[k];
+            around.grow(x.xyz());
+            // The points of a coarse one are nearer to a wall than its middle.
+            reach = std::max(reach, (kContactReach + (particles.level[k] > 0 ? 0.6f : 0.0f)) / kSupport * x.w);
         }
         WallFinder walls;
         walls.gather(colliders, nullptr, colliderCount, around, reach);
         int exposed = 0;
-        float lastVolume = 0, lastSupport = 0, edge = 0, thinner = 1; // most rows are of one size
+        float lastVolume = 0;
+        Size size{0, 0}; // most rows are of one
         for (int i = begin; i < end; ++i) {
             const size_t k = static_cast<size_t>(i);
-            const float h = particles.position[k].w;
-            if (volume[k] != lastVolume || h != lastSupport) {
-                lastVolume = volume[k], lastSupport = h, edge = detCbrt(lastVolume);
-                const float spacing = h / kSupport;
-                thinner = lastVolume > 0 ? spacing * spacing * spacing / lastVolume : 1.0f;
-            }
-            float share = neighbors.volumeFraction[k];
-            Vec3 gradient = neighbors.gradientSum[k].xyz();
             particles.normal[k] = {};
             particles.flags[k] = static_cast<uint8_t>(particles.flags[k] & ~kSurface);
-            if (1 - share <= kArea[0].at && length(gradient) * h < kLeastGradient) continue;
-            walls.forNear(particles.position[k].xyz(), kContactReach / kSupport * h,
-                          [&](float distance, Vec3 n, const Collider&) {
-                              const float a = contact(distance * (kSupport / h));
-                              if (a == 0) return;
-                              // Divided, not added: the shares of bare sides multiply to a good approximation.
-                              share /= 1 - kFaceMissing * a;
-                              gradient = gradient - (kFaceGradient * a / h) * n;
-                          });
-            const float steep = length(gradient) * h;
-            const float slope = steep / share, bySlope = interpolate(kBySlope, slope);
-            const bool faceless = steep < kLeastGradient;
-            // A film in the air of one layer has the volume of its thickness: how full its support is says nothing
-            // about how thick it is, only how many there are.
-            const float missing = faceless ? 1 - share * thinner : std::max(1 - share, bySlope);
-            // Less bare than that is the disorder of a liquid's inside: 1000 of the candle's 3400 at the surface were,
-            // and took rays.
-            if (missing < kArea[0].at || (faceless && missing < kSurelyBare)) continue;
-            float area;
-            if (faceless) {
-                area = interpolate(kFaceless, missing);
-            } else {
-                const float denser = std::max(0.0f, share / (1 - bySlope) - 1) / kDenser;
-                area = interpolate(kArea, missing) + std::min(denser, kMostDense) * interpolate(kDense, slope);
+            float area = 0;
+            Vec3 outward;
+            bool bare;
+            const float h = particles.position[k].w;
+            if (volume[k] != lastVolume || h != size.support) {
+                lastVolume = volume[k];
+                const float spacing = h / kSupport;
+                size = {h, detCbrt(lastVolume), lastVolume > 0 ? spacing * spacing * spacing / lastVolume : 1.0f};
             }
-            if (!(area > 0)) continue;
-            Vec4& normal = particles.normal[k];
-            if (steep > kLeastDirection) normal.setXyz(normalizeOr(-gradient, {}));
-            const float side = faceless ? h / kSupport : edge;
-            normal.w = area * side * side;
+            if (reference && particles.level[k] > 0 && particles.fine[k]) {
+                bare = isBareByReference(particles, k, *reference, size, walls, area, outward);
+            } else {
+                bare = isBare(neighbors.volumeFraction[k], neighbors.gradientSum[k].xyz(), size,
+                              particles.position[k].xyz(), walls, area, outward);
+                if (reference && particles.fine[k]) {
+                    const size_t point = particles.fine[k] - 1;
+                    const bool outside = bare || !covered(reference->point[point].w, reference->slope[point].xyz(), h);
+                    if (outside && besideCoarse(i))
+                        bare = isBareByReference(particles, k, *reference, size, walls, area, outward);
+                }
+            }
+            if (!bare) continue;
+            particles.normal[k] = {outward.x, outward.y, outward.z, area};
             particles.flags[k] = static_cast<uint8_t>(particles.flags[k] | kSurface);
             ++exposed;
         }

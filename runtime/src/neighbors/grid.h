@@ -96,9 +96,8 @@ struct CellGrid {
         }
         const int right = from[0] + count[0] - 1;
         int n = 0;
-        for (int z = 0; z < count[2]; ++z)
-            for (int y = 0; y < count[1]; ++y) {
-                const int cz = (from[2] + z) % cells[2], cy = (from[1] + y) % cells[1];
+        for (int z = 0, cz = from[2]; z < count[2]; ++z, cz = cz + 1 == cells[2] ? 0 : cz + 1)
+            for (int y = 0, cy = from[1]; y < count[1]; ++y, cy = cy + 1 == cells[1] ? 0 : cy + 1) {
                 if (right >= cells[0]) n = insert(start, cz, cy, 0, right - cells[0], out, n);
                 n = insert(start, cz, cy, from[0], std::min(right, cells[0] - 1), out, n);
             }

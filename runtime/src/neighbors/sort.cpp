@@ -52,16 +52,21 @@ void Neighbors::layGrid(const Particles& particles, Tasks& tasks) {
     minSupport_ = lower.w, maxSupport_ = upper.w;
 
     classBounds(minSupport_, maxSupport_, bound_);
-    uint32_t present = 0;
+    Bounds of[GridSet::kMost]; // of each class: its cells need not cover more
+    for (Bounds& b : of) b = {{INFINITY, INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, -INFINITY, 0}};
     if (minSupport_ == maxSupport_) {
-        present = 1;
+        of[0] = {lower, upper};
     } else {
-        for (int i = 0; i < n; ++i) present |= 1u << classOf(position[i].w, bound_);
+        for (int i = 0; i < n; ++i) {
+            Bounds& b = of[classOf(position[i].w, bound_)];
+            b = {lesser(b.lower, position[i]), greater(b.upper, position[i])};
+        }
     }
-    const double low[3] = {lower.x, lower.y, lower.z}, high[3] = {upper.x, upper.y, upper.z};
     grids_.count = 0, grids_.first[0] = 0;
     for (int c = 0; c < GridSet::kMost; ++c) {
-        if (!(present >> c & 1)) continue;
+        if (!(of[c].lower.x <= of[c].upper.x)) continue;
+        const double low[3] = {of[c].lower.x, of[c].lower.y, of[c].lower.z};
+        const double high[3] = {of[c].upper.x, of[c].upper.y, of[c].upper.z};
         slot_[c] = grids_.count;
         CellGrid& grid = grids_.grid[grids_.count];
         grids_.support[grids_.count] = std::min(bound_[c], maxSupport_);

@@ -35,11 +35,13 @@ enum ParticleFlag : uint8_t {
     X(uint8_t, rayAge)       /* 1 + steps since the last look at the sources; 0 never */                               \
     X(uint32_t, id)          /* stable, never reused */                                                                \
     X(uint32_t, bondSlot)    /* where its bonds are (Bonds), 0 none */                                                 \
+    X(uint32_t, fine) /* first of its points in Reference + 1; 0: it has none, or not the ones it was filled with */   \
     X(uint16_t, body)                                                                                                  \
     X(uint16_t, piece)  /* rigid piece that a fixed row is part of, its slot + 1; 0: held, or a mover */               \
     X(uint16_t, anchor) /* fixed: 1 + the collider that it hangs on, of those that are told apart; else 0 */           \
     X(uint8_t, material)                                                                                               \
     X(uint8_t, level)   /* mass 2^level of the finest */                                                               \
+    X(uint8_t, want)    /* eighths of a spacing to what must be fine, of solids that could be coarse (Levels) */       \
     X(uint8_t, absorbs) /* 1 + 254 x painted absorptivity; 0: that of the material */                                  \
     X(uint8_t, flags)
 

@@ -40,7 +40,13 @@ thawPlan makePlan(const Needs& n, const thawWork& work) {
     for (thawStage s : {thawStage_forces, thawStage_viscosity, thawStage_pressure})
         set(s, n.movers > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
     set(thawStage_collision, n.movers + n.rigid > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
-    set(thawStage_stats, any && (heated || moved || (n.burns && n.heatDue)),
+    const bool otherLevels = n.finestLevel != work.finestLevel || n.coarsestLevel != work.coarsestLevel;
+    const bool levels = n.levels && (heated || moved || n.levelsChanged || otherLevels);
+    set(thawStage_levels, any && levels,
+        !any       ? thawReason_noParticles
+        : n.levels ? thawReason_nothingChanged
+                   : thawReason_oneLevel);
+    set(thawStage_stats, any && (heated || moved || levels || (n.burns && n.heatDue)),
         any ? thawReason_nothingChanged : thawReason_noParticles);
     return plan;
 }
@@ -79,7 +85,10 @@ thawWork clip(const Quality& q, const thawWork& limit) {
             std::min(q.rays, limit.rayRefresh),
             limit.leastSubSteps,
             std::min(q.heatCycles, limit.heatCycles),
-            std::min(q.raysPerSource, limit.raysPerSource)};
+            std::min(q.raysPerSource, limit.raysPerSource),
+            limit.finestLevel,
+            limit.coarsestLevel,
+            limit.splits};
 }
 
 } // namespace

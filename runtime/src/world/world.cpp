@@ -30,6 +30,11 @@ struct StageTimer {
     Clock::time_point start_;
 };
 
+// Solid, and nothing that lists of bonds or liquid need: it may stand for several.
+bool startsCoarse(const Material& m, float temperature) {
+    return !m.soft() && m.liquidFraction(m.enthalpy(temperature)) < m.def.releaseFraction;
+}
+
 uint16_t makeTag(const void* self) {
     // No global counter: two worlds at once differ by address. 16 bits catch a mix-up, not malice.
     uint64_t h = hashCombine(0x7468617721ULL, reinterpret_cast<uintptr_t>(self));
@@ -46,8 +51,8 @@ Transform toTransform(thawVec3 p, thawQuat q, float scale) {
 World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
       motion_(allocator), rigid_(allocator), rigidLiquid_(allocator), heat_(allocator), hold_(allocator),
-      anchors_(allocator), bonds_(allocator), surface_(allocator), volume_(allocator), invDensity_(allocator),
-      blockTotals_(allocator) {
+      anchors_(allocator), bonds_(allocator), surface_(allocator), reference_(allocator), levels_(allocator),
+      volume_(allocator), invDensity_(allocator), blockTotals_(allocator), expanded_(allocator) {
     particles.allocate(d.maxParticles);
     const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
     volume_.resize(n), invDensity_.resize(n);
@@ -81,6 +86,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
         auto t = timed(thawStage_neighbors);
         refreshNeighbors();
     }
+    const bool bodiesNew = bodiesNew_;
     if (bodiesNew_) {
         // Before it is held, or falls: what a new body has of velocity is that of the part that is free.
         auto t = timed(thawStage_phase);
@@ -122,6 +128,11 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     }
     const double heatSeconds = now.heatDue ? heatTimePending_ : 0;
     if (now.heatDue) heatTimePending_ = 0;
+
+    if (on(thawStage_levels)) {
+        auto t = timed(thawStage_levels);
+        levels_.choose(levelFrame(work), on(thawStage_radiation) ? heat_.power() : nullptr, bodiesNew);
+    }
 
     MotionStats motionStats{};
     if (on(thawStage_collision) || rigid_.moving() || (rigid_.any() && collidersMove())) {
@@ -173,6 +184,14 @@ uint32_t World::step(float dt, const thawBudget& budget) {
         auto t = timed(thawStage_phase);
         holdAndRelease(dt);
     }
+    LevelResult levelResult;
+    if (on(thawStage_levels)) {
+        auto t = timed(thawStage_levels);
+        levelResult = levels_.apply(levelFrame(work));
+        if (levelResult.split + levelResult.merged > 0) listsStale_ = true;
+        if (levelResult.refused) status |= thawStep_splitsClipped;
+        levelsChanged_ = levelResult.split + levelResult.merged > 0;
+    }
     if (on(thawStage_stats)) {
         auto t = timed(thawStage_stats);
         if (heatSeconds > 0) burnOff(heatSeconds);
@@ -197,6 +216,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     counters_.pressureIterations = on(thawStage_pressure) ? subSteps * work.pressureIterations : 0;
     counters_.viscosityIterations = motionStats.viscosityIterations;
     counters_.rays = heatStats.rays;
+    counters_.splits = levelResult.split, counters_.merges = levelResult.merged;
     counters_.maxSpeed = motionStats.maxSpeed;
     counters_.maxCompression = motionStats.maxCompression, counters_.meanCompression = motionStats.meanCompression;
     counters_.apparentViscosity = motionStats.apparentViscosity;
@@ -230,6 +250,8 @@ Needs World::needs() const {
         n.areaSources += strength != 0 && hasExtent(s.type);
     }
     n.timeScaleZero = def.thermalTimeScale == 0;
+    n.levels = !reference_.point.empty(), n.levelsChanged = levelsChanged_;
+    n.finestLevel = plan.work.finestLevel, n.coarsestLevel = plan.work.coarsestLevel;
     for (const Material& m : materials)
         n.burns |= !n.timeScaleZero && m.def.burnTemperature > 0 && maxTemperature_ > m.def.burnTemperature;
     n.unequal = maxTemperature_ - minTemperature_ > kEqualTemperature || undercooled_ > 0;
@@ -265,7 +287,7 @@ void World::carryHeld(float h, int subStep, int subSteps) {
 
 // The end of a sub-step: colliders and what hangs on them at their new places.
 void World::arrive() {
-    if (heldSpeed_ > 0) endCarry(particles, colliders.data(), static_cast<int>(colliders.size()));
+    if (heldSpeed_ > 0) endCarry(particles, reference_, colliders.data(), static_cast<int>(colliders.size()));
     for (Collider& c : colliders) {
         if (!c.alive || !c.moves) continue;
         // What was counted about the old place counts about the new one.
@@ -340,7 +362,7 @@ void World::refreshNeighbors() {
 void World::refreshExposure() {
     ++surfaceVersion_;
     exposed_ = findExposure(particles, neighbors_, volume_.data(), colliders.data(), static_cast<int>(colliders.size()),
-                            tasks);
+                            anyCoarse_ ? &reference_ : nullptr, tasks);
 }
 
 // The pressure of its depth is what a liquid has that walls hold on all sides. Where it is open it has no more than
@@ -433,7 +455,8 @@ MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work) {
             heldSpeed_,
             &bonds_,
             rigid_.any() ? &rigid_ : nullptr,
-            rigid_.any() ? &rigidLiquid_ : nullptr};
+            rigid_.any() ? &rigidLiquid_ : nullptr,
+            reference_.point.empty() ? nullptr : &reference_};
 }
 
 BondFrame World::bondFrame(float dt) {
@@ -544,12 +567,15 @@ void World::measure() {
     if (particles.count == 0) minTemperature_ = maxTemperature_ = def.ambientTemperature;
     counters_.moving = 0;
     rigidRows_ = 0;
+    std::fill(std::begin(counters_.levels), std::end(counters_.levels), 0);
     for (int i = 0; i < particles.count; ++i) {
+        ++counters_.levels[particles.level[static_cast<size_t>(i)]];
         const uint16_t piece = particles.piece[static_cast<size_t>(i)];
         counters_.moving += !particles.fixed(i), rigidRows_ += piece && !rigid_.pieceOf(piece).asleep;
     }
     counters_.moving += rigidRows_;
     counters_.fixed = particles.count - counters_.moving;
+    anyCoarse_ = counters_.levels[0] < particles.count;
 }
 
 template <class F> int World::removeParticles(F&& remove, double& mass, double& energy) {
@@ -605,12 +631,33 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     if (r != thawResult_ok) return r;
     std::vector<Vec3> points;
     float volume = 0;
-    r = fillMesh(mesh, def.particleSpacing, def.maxParticles - particles.count, tasks, points, volume, message);
+    FillLattice lattice;
+    // What is coarse takes fewer rows than it has points.
+    const int room = def.maxParticles - particles.count;
+    const int most = static_cast<int>(std::min<int64_t>(int64_t{room} << d.coarsestLevel, 1 << 27));
+    r = fillMesh(mesh, def.particleSpacing, most, tasks, points, volume, message, &lattice);
+    if (r == thawResult_capacity && d.coarsestLevel > 0)
+        message += "; counted in the finest, with coarsestLevel " + std::to_string(d.coarsestLevel);
     if (r != thawResult_ok) return r;
     std::vector<uint8_t> materialOf;
     r = assignParts(d, mesh, place, points, tasks, materialOf, message);
     if (r != thawResult_ok) return r;
-    if (bodies.size() <= slot) bodies.resize(slot + 1);
+    Groups groups;
+    if (d.coarsestLevel > 0) {
+        std::vector<uint8_t> kind = materialOf;
+        for (uint8_t& k : kind)
+            if (!startsCoarse(materials[k], std::isnan(d.temperature) ? def.ambientTemperature : d.temperature))
+                k = kAlone;
+        groups = groupPoints(points, kind, lattice);
+    }
+    const size_t rowsNeeded = groups.rows(points.size(), d.coarsestLevel);
+    if (rowsNeeded > static_cast<size_t>(room)) {
+        message = "maxParticles: the body needs " + std::to_string(rowsNeeded) + " particles at its coarsestLevel of " +
+                  std::to_string(d.coarsestLevel) + ", but only " + std::to_string(room) + " are free";
+        return thawResult_capacity;
+    }
+    if (bodies.size() <= slot) bodies.resize(slot + 1), bodyPoints_.resize(slot + 1);
+    const Vec3 middle = d.coarsestLevel > 0 ? refer(slot, points, groups, volume) : Vec3{};
 
     const float temperature = std::isnan(d.temperature) ? def.ambientTemperature : d.temperature;
     float meanDensity = materials[d.material.index1 - 1].def.density;
@@ -634,13 +681,18 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
                       static_cast<float>(share * sum[2])};
     std::vector<uint32_t> loose; // rows of the piece that a body makes which stands free
     if (!d.anchored) loose.reserve(points.size()), rigid_.reserve();
-    for (size_t point = 0; point < points.size(); ++point) {
-        const Vec3 x = points[point];
+    for (size_t at = 0, step; at < points.size(); at += step) {
+        const size_t point = groups.order.empty() ? at : groups.order[at];
+        const int level = groups.order.empty() ? 0 : std::min(groups.levelOf(at), d.coarsestLevel);
+        step = size_t{1} << level;
+        const Vec3 x = level > 0
+                           ? middle + reference_.center(bodyPoints_[slot].begin + static_cast<uint32_t>(at), level)
+                           : points[point];
         const uint8_t material = materialOf[point];
         const Material& m = materials[material];
         const double H = m.enthalpy(temperature);
         const float phi = m.liquidFraction(H);
-        const float mass = volume * m.def.density;
+        const float mass = volume * m.def.density * static_cast<float>(step);
         // What is liquid from the start carries the pressure of its depth: without it, it falls into itself for a third
         // of a second (in a tank by 4 % at the worst, by 10 % with half of that pressure).
         const bool liquid = phi >= m.def.releaseFraction;
@@ -650,7 +702,12 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
 #define X(type, name) particles.name[k] = type{};
         THAW_PARTICLE_FIELDS(X)
 #undef X
-        particles.position[k] = {x.x, x.y, x.z, kSupport * def.particleSpacing};
+        particles.position[k] = {x.x, x.y, x.z, supportOf(def.particleSpacing, level)};
+        particles.level[k] = static_cast<uint8_t>(level);
+        if (!groups.order.empty() && startsCoarse(m, temperature)) {
+            particles.fine[k] = bodyPoints_[slot].begin + static_cast<uint32_t>(at) + 1;
+            particles.want[k] = Levels::kFar;
+        }
         const Vec3 v = velocity + cross(spin, x - center); // of what is held, it is taken away when that is known
         particles.velocity[k] = {v.x, v.y, v.z, mass};
         particles.pressure[k] = liquid ? meanDensity * (dot(x, gravity) - top) : 0.0f;
@@ -693,9 +750,84 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     return thawResult_ok;
 }
 
+LevelFrame World::levelFrame(const thawWork& work) {
+    return {particles,        neighbors_,         reference_,  materials.data(), tasks,  def.particleSpacing,
+            work.finestLevel, work.coarsestLevel, work.splits, steps_,           nextId_};
+}
+
+Vec3 World::refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume) {
+    // How bare each point is where all of the body is fine.
+    const int n = static_cast<int>(points.size());
+    Particles fine(allocator);
+    fine.allocate(n);
+    fine.count = n;
+    Box box;
+    for (const Vec3& x : points) box.grow(x);
+    const Vec3 center = 0.5f * (box.lower + box.upper);
+    for (size_t i = 0; i < points.size(); ++i) {
+        const Vec3 x = points[i] - center;
+        fine.position[i] = {x.x, x.y, x.z, supportOf(def.particleSpacing, 0)}, fine.flags[i] = kFixed;
+        fine.id[i] = static_cast<uint32_t>(i);
+    }
+    fine.pad();
+    Neighbors lists(allocator);
+    lists.sort(fine, tasks), lists.build(fine, tasks);
+    Array<float> volumes(allocator), none(allocator);
+    volumes.assign(points.size() + Particles::kPadding, volume), none.assign(points.size() + Particles::kPadding, 0);
+    for (size_t i = points.size(); i < volumes.size(); ++i) volumes[i] = 0;
+    lists.weigh(fine, volumes.data(), none.data(), tasks);
+    std::vector<uint32_t> rowOf(points.size());
+    for (uint32_t r = 0; r < points.size(); ++r) rowOf[fine.id[r]] = r;
+
+    const size_t begin = reference_.point.size();
+    reference_.point.resize(begin + points.size()), reference_.slope.resize(begin + points.size());
+    for (size_t place = 0; place < points.size(); ++place) {
+        const uint32_t r = rowOf[groups.order[place]];
+        const Vec3 x = fine.position[r].xyz(), g = lists.gradientSum[r].xyz();
+        reference_.point[begin + place] = {x.x, x.y, x.z, lists.volumeFraction[r]};
+        reference_.slope[begin + place] = {g.x, g.y, g.z, static_cast<float>(groups.levelOf(place))};
+    }
+    bodyPoints_[slot] = {static_cast<uint32_t>(begin), static_cast<uint32_t>(begin + points.size())};
+    return center;
+}
+
+void World::forget(size_t slot) {
+    const PointRange gone = bodyPoints_[slot];
+    const uint32_t count = gone.end - gone.begin;
+    bodyPoints_[slot] = {};
+    if (count == 0) return;
+    const size_t kept = reference_.point.size() - count;
+    for (size_t k = gone.begin; k < kept; ++k)
+        reference_.point[k] = reference_.point[k + count], reference_.slope[k] = reference_.slope[k + count];
+    reference_.point.resize(kept), reference_.slope.resize(kept);
+    for (PointRange& r : bodyPoints_)
+        if (r.begin >= gone.end) r.begin -= count, r.end -= count;
+    for (int i = 0; i < particles.count; ++i)
+        if (uint32_t& fine = particles.fine[static_cast<size_t>(i)]; fine > gone.end) fine -= count;
+}
+
+void World::expandForSurface() {
+    Expanded& e = expanded_;
+    const auto clear = [](auto&... arrays) { (arrays.clear(), ...); };
+    clear(e.position, e.temperature, e.liquidFraction, e.material, e.flags);
+    const auto add = [&](size_t k, Vec3 x, float support) {
+        e.position.push({x.x, x.y, x.z, support}), e.temperature.push(particles.temperature[k]);
+        e.liquidFraction.push(particles.liquidFraction[k]);
+        e.material.push(particles.material[k]), e.flags.push(particles.flags[k]);
+    };
+    const float finest = supportOf(def.particleSpacing, 0);
+    for (size_t k = 0; k < static_cast<size_t>(particles.count); ++k) {
+        if (particles.level[k] > 0 && particles.fine[k])
+            reference_.forPoints(particles, k, [&](Vec3 x, uint32_t) { add(k, x, finest); });
+        else
+            add(k, particles.position[k].xyz(), particles.position[k].w);
+    }
+}
+
 void World::removeBody(uint32_t index) {
     removeParticles([&](size_t k) { return particles.body[k] == index; }, massRemoved_, energyRemoved_);
     bodies[index].alive = false;
+    forget(index);
     measure();
 }
 
@@ -771,10 +903,18 @@ void World::removeCollider(uint32_t index) {
 }
 
 void World::extractSurface(const thawSurfaceDef& d, thawSurfaceView& out) {
-    surface_.extract({particles.count, particles.position.data(), particles.temperature.data(),
-                      particles.liquidFraction.data(), particles.material.data(), particles.flags.data(),
-                      def.particleSpacing},
-                     d.cellSize, d.smoothing, tasks);
+    if (anyCoarse_) {
+        expandForSurface();
+        const Expanded& e = expanded_;
+        surface_.extract({static_cast<int>(e.position.size()), e.position.data(), e.temperature.data(),
+                          e.liquidFraction.data(), e.material.data(), e.flags.data(), def.particleSpacing},
+                         d.cellSize, d.smoothing, tasks);
+    } else {
+        surface_.extract({particles.count, particles.position.data(), particles.temperature.data(),
+                          particles.liquidFraction.data(), particles.material.data(), particles.flags.data(),
+                          def.particleSpacing},
+                         d.cellSize, d.smoothing, tasks);
+    }
     out = {static_cast<int32_t>(surface_.positions.size()),
            static_cast<int32_t>(surface_.indices.size() / 3),
            surface_.positions.empty() ? nullptr : &surface_.positions[0].x,
@@ -842,6 +982,8 @@ uint64_t World::stateHash() const {
             bytes(v, sizeof v);
         }
     }
+    bytes(reference_.point.data(), reference_.point.size() * sizeof(Vec4));
+    bytes(reference_.slope.data(), reference_.slope.size() * sizeof(Vec4));
     return heat_.hash(rigidLiquid_.hash(rigid_.hash(bonds_.hash(h))));
 }
 

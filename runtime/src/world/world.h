@@ -6,6 +6,8 @@
 #include "geometry/colliders.h"
 #include "geometry/mesh_fill.h"
 #include "heat/heat.h"
+#include "levels/group.h"
+#include "levels/levels.h"
 #include "motion/anchors.h"
 #include "motion/bonds.h"
 #include "motion/hold.h"
@@ -107,6 +109,11 @@ private:
     // Of all rows k for which remove(k); adds what they had to mass and energy. Returns how many.
     template <class F> int removeParticles(F&& remove, double& mass, double& energy);
     void burnOff(double heatSeconds);
+    LevelFrame levelFrame(const thawWork& work);
+    // Adds the points of a body to the reference, in the order of their groups. Returns where its origin is.
+    Vec3 refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume);
+    void forget(size_t slot);
+    void expandForSurface();
 
     Neighbors neighbors_;
     Motion motion_;
@@ -117,6 +124,12 @@ private:
     Anchors anchors_;
     Bonds bonds_;
     Surface surface_;
+    Reference reference_;
+    Levels levels_;
+    struct PointRange { // of a body in the reference
+        uint32_t begin = 0, end = 0;
+    };
+    std::vector<PointRange> bodyPoints_; // per body
     Governor governor_;
     Array<float> volume_, invDensity_;
     Array<Totals> blockTotals_;
@@ -135,6 +148,14 @@ private:
     double time_ = 0;
     double heatTimePending_ = 0; // s of heat time not yet applied (heatInterval)
     int exposed_ = 0;
+    bool anyCoarse_ = false;     // some particle of level 1 or higher
+    bool levelsChanged_ = false; // in the last step
+    struct Expanded {        // what the surface is made of: the finest points in place of what is coarse
+        explicit Expanded(Allocator& a) : position(a), temperature(a), liquidFraction(a), material(a), flags(a) {}
+        Array<Vec4> position;
+        Array<float> temperature, liquidFraction;
+        Array<uint8_t> material, flags;
+    } expanded_;
 
     // Ledger and counters of the last measurement.
     double massAdded_ = 0, massRemoved_ = 0, energyAdded_ = 0, energyRemoved_ = 0;

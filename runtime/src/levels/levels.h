@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/tasks.h"
+#include "neighbors/neighbors.h"
+#include "particles/material.h"
+#include "particles/particles.h"
+#include "particles/reference.h"
+
+namespace thaw {
+
+struct LevelFrame {
+    Particles& particles;
+    const Neighbors& neighbors; // of the rows as they are
+    Reference& reference;
+    const Material* materials;
+    Tasks& tasks;
+    float spacing;        // m, of level 0
+    int finest, coarsest; // levels of the plan, 0..3
+    int mostSplits;       // particles that may come to be in a step
+    uint64_t step;
+    uint32_t& nextId;
+};
+
+struct LevelResult {
+    int split = 0, merged = 0; // particles that came and went
+    bool refused = false;      // capacity or mostSplits left some coarser than wanted
+};
+
+// How coarse solids are. Untouched solid is coarse; it splits to the finest particles of its reference before anything
+// happens to it, and merges back when nothing did:
+//  - within two spacings of what flows, of what was melted and set again, and of other bodies it is fine, and coarser
+//  by
+//    a level for about a spacing and a half more each (kBand);
+//  - where temperature changes within a particle by a share of what it lacks to melt, it is as fine as that asks for.
+// (Levels of mass 2^l: thesis 3.4. What liquid needs by its own shape is not decided here.)
+class Levels {
+public:
+    static constexpr uint8_t kFar = 255; // of Particles::want: nothing near
+
+    explicit Levels(Allocator& allocator) : next_(allocator), gone_(allocator) {}
+
+    // Demand of the rows (Particles::want), of a fourth of them in each step: it spreads by a support every fourth
+    // step. flux: W that a row takes from sources, or null. all: of every row.
+    void choose(const LevelFrame& f, const float* flux, bool all);
+    // Splits and merges. Rows are added behind the others and taken out: all lists are stale after it.
+    LevelResult apply(const LevelFrame& f);
+
+private:
+    int target(const LevelFrame& f, size_t row) const;
+    Array<uint8_t> next_, gone_;
+};
+
+} // namespace thaw
