@@ -205,3 +205,63 @@ TEST_CASE(
     REQUIRE(thawCreateBody(f.world, &d, &id, nullptr) == thawResult_ok);
     f.step(2);
 }
+
+TEST_CASE("levels: a pool at rest hardly notices that it merges and splits") {
+    for (const float dx : {0.002f, 0.004f}) {
+        WorldFixture f;
+        f.def.particleSpacing = dx, f.def.thermalTimeScale = 0;
+        f.create();
+        thawMaterialDef m;
+        thawInitMaterialDef(&m, thawMaterial_wax);
+        m.viscosityLiquid = 1, m.cohesion = 0, m.adhesion = 0;
+        f.addMaterial(m), f.addFloor();
+        const float side = 10 * dx;
+        for (int k = 0; k < 4; ++k) {
+            thawColliderDef d;
+            thawInitColliderDef(&d, thawCollider_box);
+            d.size = {side, side, side};
+            d.position = {k == 0   ? -side
+                          : k == 1 ? 2 * side
+                                   : 0.5f * side,
+                          0.9f * side,
+                          k == 2   ? -side
+                          : k == 3 ? 2 * side
+                                   : 0.5f * side};
+            thawColliderId id;
+            REQUIRE(thawCreateCollider(f.world, &d, &id, nullptr) == thawResult_ok);
+        }
+        f.addBox({0, 0, 0}, {side, side, side}, m.liquidus + 10);
+        f.step(300);
+        const auto state = [&](double& fastest, double& rms) {
+            const thawParticleView v = f.particles();
+            double most = 0, sum = 0, mass = 0;
+            for (int i = 0; i < v.count; ++i) {
+                const float* u = v.velocities + 4 * i;
+                const double s2 = static_cast<double>(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+                most = std::max(most, s2), sum += static_cast<double>(u[3]) * s2, mass += static_cast<double>(u[3]);
+            }
+            fastest = std::max(fastest, std::sqrt(most)), rms = std::max(rms, std::sqrt(sum / mass));
+        };
+        const int rows = f.counters().particles;
+        const float coarser = 2 * dx / 0.004f; // mm/s that an event may bring, as the spacing
+        for (const int finest : {1, 0}) {
+            double fastest = 0, rms = 0;
+            f.budget.work.finestLevel = finest;
+            float compression = 0;
+            for (int k = 0; k < 900; ++k) {
+                f.step(), state(fastest, rms);
+                compression = std::max(compression, f.counters().meanCompression);
+            }
+            CHECK(1e3 * rms < static_cast<double>(1.6f * coarser));
+            CHECK(1e3 * fastest < static_cast<double>(20 * coarser));
+            CHECK(compression < 0.03f);
+            if (finest == 1)
+                CHECK(f.counters().particles < rows * 11 / 20);
+            else
+                CHECK(f.counters().particles == rows);
+            fastest = rms = 0, state(fastest, rms);
+            CHECK(1e3 * rms < 0.3);
+            CHECK(f.ledger().massError < 1e-6);
+        }
+    }
+}

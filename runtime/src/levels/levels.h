@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/tasks.h"
+#include "geometry/colliders.h"
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
 #include "particles/particles.h"
@@ -21,6 +22,10 @@ struct LevelFrame {
     int mostSplits;       // particles that may come to be in a step
     uint64_t step;
     uint32_t& nextId;
+    const Collider* colliders;
+    int colliderCount;
+    const uint8_t* coarsestOf; // per body: levels that its liquid may have where it is deep
+    const Vec4* errors;        // per mover, w: density error that the pressure saw; to apply() only
 };
 
 struct LevelResult {
@@ -34,7 +39,9 @@ struct LevelResult {
 //  by
 //    a level for about a spacing and a half more each (kBand);
 //  - where temperature changes within a particle by a share of what it lacks to melt, it is as fine as that asks for.
-// (Levels of mass 2^l: thesis 3.4. What liquid needs by its own shape is not decided here.)
+// Liquid is fine at its surface, at walls, at solids and other liquids, and coarser with the same bands below, in
+// bodies that may be coarse. It splits in two where there is most room and merges with its nearest of the same kind, a
+// few at a time. (Levels of mass 2^l, by how far the surface is: thesis 3.4, Adams et al. 2007.)
 class Levels {
 public:
     static constexpr uint8_t kFar = 255; // of Particles::want: nothing near
@@ -49,6 +56,16 @@ public:
 
 private:
     int target(const LevelFrame& f, size_t row) const;
+    uint8_t wantOfSolid(const LevelFrame& f, int row, const float* flux) const;
+    uint8_t wantOfLiquid(const LevelFrame& f, int row) const;
+    void solids(const LevelFrame& f, LevelResult& result);
+    void liquids(const LevelFrame& f, LevelResult& result);
+    bool mergeSolid(const LevelFrame& f, size_t row);
+    void splitLiquid(const LevelFrame& f, size_t row);
+    bool mergeLiquid(const LevelFrame& f, size_t row);
+    void disturb(const LevelFrame& f, size_t row) const;
+
+    int rows_ = 0, room_ = 0; // that the lists know; that may still come
     Array<uint8_t> next_, gone_;
 };
 

@@ -147,7 +147,9 @@ void Motion::begin(const MotionFrame& f) {
             Vec3 gradient;
             if (n) weighWalls(f, i, solid, gradient);
             const float error = f.neighbors.volumeFraction[i] + solid - 1;
-            wallGradient_[i] = {gradient.x, gradient.y, gradient.z, error};
+            float& blend = p.blend[i];
+            if (blend != 0) blend = settled(blend, error, f.dt);
+            wallGradient_[i] = {gradient.x, gradient.y, gradient.z, error - blend};
             if (!p.bondSlot[i]) sums.a += std::max(error, 0.0f), sums.c = std::max(sums.c, error);
 
             // dC/dP of this particle's own pressure. Between fixed neighbours it grows without bound and winds the

@@ -69,6 +69,8 @@ public:
     void viscosity(const MotionFrame& f); // conjugate gradients with the pressure fold and no-slip walls
     void pressure(const MotionFrame& f);  // Jacobi iterations, walls held inside
     void move(const MotionFrame& f);      // positions: swept when fast, minimum distance, out of walls
+    // Per mover of the last begin(), w: the density error that the pressure saw.
+    const Vec4* densityErrors() const { return wallGradient_.data(); }
     const MotionStats& stats() const { return stats_; }
     // Adds to each reporting collider what the last sub-step's movers did to it.
     void addImpulses(Collider* colliders, int colliderCount) const;

@@ -31,6 +31,7 @@ enum ParticleFlag : uint8_t {
     X(float, pressure)       /* Pa, warm start of the next step */                                                     \
     X(float, stiffness)      /* Jacobi coefficient of the last step, 0 when there was none */                          \
     X(uint64_t, rayShares)   /* of the first 8 sources, a byte each: see radiation.cpp */                              \
+    X(float, blend)          /* density error of a mover that a split or merge made, which fades (settled()) */        \
     X(float, rayChange)      /* W/m^2 that may have changed since the last look */                                     \
     X(uint8_t, rayAge)       /* 1 + steps since the last look at the sources; 0 never */                               \
     X(uint32_t, id)          /* stable, never reused */                                                                \
@@ -44,6 +45,16 @@ enum ParticleFlag : uint8_t {
     X(uint8_t, want)    /* eighths of a spacing to what must be fine, of solids that could be coarse (Levels) */       \
     X(uint8_t, absorbs) /* 1 + 254 x painted absorptivity; 0: that of the material */                                  \
     X(uint8_t, flags)
+
+// Particles::blend of what is about to split or merge, or lies beside it: kPending and the density error that the
+// pressure saw before. What the event itself does to the error is none at first, and a fifth of it becomes one in a
+// step of 1/60 s: else the pressure takes it back at once, with four times the kick (BAKEOFF2 B2).
+inline constexpr float kPending = 8;
+inline float settled(float blend, float error, float dt) {
+    if (blend >= 0.5f * kPending) return error - (blend - kPending);
+    const float rest = blend * (1 - (dt < 1.0f / 12 ? 12 * dt : 1));
+    return rest > 1e-4f || rest < -1e-4f ? rest : 0;
+}
 
 inline uint8_t paintedAbsorptivity(float a) { return static_cast<uint8_t>(1.5f + 254 * a); }
 inline float absorptivity(uint8_t painted, float material) {
@@ -99,8 +110,8 @@ struct Particles {
     }
 };
 
-// Calls f(m) at least once for every material m among the first `rows` rows; rows in cell order mostly share theirs with
-// the one before.
+// Calls f(m) at least once for every material m among the first `rows` rows; rows in cell order mostly share theirs
+// with the one before.
 template <class F> void forMaterials(const Particles& p, int rows, F&& f) {
     int last = -1;
     for (int r = 0; r < rows; ++r) {

@@ -41,11 +41,12 @@ thawPlan makePlan(const Needs& n, const thawWork& work) {
         set(s, n.movers > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
     set(thawStage_collision, n.movers + n.rigid > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
     const bool otherLevels = n.finestLevel != work.finestLevel || n.coarsestLevel != work.coarsestLevel;
-    const bool levels = n.levels && (heated || moved || n.levelsChanged || otherLevels);
+    const bool mayChange = n.levels || work.finestLevel > 0;
+    const bool levels = mayChange && (heated || moved || n.levelsChanged || otherLevels);
     set(thawStage_levels, any && levels,
-        !any       ? thawReason_noParticles
-        : n.levels ? thawReason_nothingChanged
-                   : thawReason_oneLevel);
+        !any        ? thawReason_noParticles
+        : mayChange ? thawReason_nothingChanged
+                    : thawReason_oneLevel);
     set(thawStage_stats, any && (heated || moved || levels || (n.burns && n.heatDue)),
         any ? thawReason_nothingChanged : thawReason_noParticles);
     return plan;

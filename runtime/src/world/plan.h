@@ -18,12 +18,12 @@ struct Needs {
     bool sourceOn = false;            // an enabled source that differs from ambient
     int sources = 0, areaSources = 0; // those: without and with an extent
     bool timeScaleZero = false;
-    bool unequal = true;         // temperatures differ within the melt
-    bool awayFromAmbient = true; // something is warmer or colder than ambient
-    bool burns = false;          // something is hot enough to turn to vapour
-    bool heatDue = true;         // by heatInterval
-    bool levels = false;         // some solid could be coarser or finer than it is
-    bool levelsChanged = false;  // the last look at them changed some, or left some for later
+    bool unequal = true;                    // temperatures differ within the melt
+    bool awayFromAmbient = true;            // something is warmer or colder than ambient
+    bool burns = false;                     // something is hot enough to turn to vapour
+    bool heatDue = true;                    // by heatInterval
+    bool levels = false;                    // some solid could be coarser or finer than it is
+    bool levelsChanged = false;             // the last look at them changed some, or left some for later
     int finestLevel = 0, coarsestLevel = 3; // of the last plan
 };
 

@@ -250,7 +250,8 @@ Needs World::needs() const {
         n.areaSources += strength != 0 && hasExtent(s.type);
     }
     n.timeScaleZero = def.thermalTimeScale == 0;
-    n.levels = !reference_.point.empty(), n.levelsChanged = levelsChanged_;
+    n.levels = anyCoarse_ || std::any_of(coarsestOf_.begin(), coarsestOf_.end(), [](uint8_t c) { return c > 0; });
+    n.levelsChanged = levelsChanged_;
     n.finestLevel = plan.work.finestLevel, n.coarsestLevel = plan.work.coarsestLevel;
     for (const Material& m : materials)
         n.burns |= !n.timeScaleZero && m.def.burnTemperature > 0 && maxTemperature_ > m.def.burnTemperature;
@@ -656,7 +657,8 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
                   std::to_string(d.coarsestLevel) + ", but only " + std::to_string(room) + " are free";
         return thawResult_capacity;
     }
-    if (bodies.size() <= slot) bodies.resize(slot + 1), bodyPoints_.resize(slot + 1);
+    if (bodies.size() <= slot) bodies.resize(slot + 1), bodyPoints_.resize(slot + 1), coarsestOf_.resize(slot + 1);
+    coarsestOf_[slot] = static_cast<uint8_t>(d.coarsestLevel);
     const Vec3 middle = d.coarsestLevel > 0 ? refer(slot, points, groups, volume) : Vec3{};
 
     const float temperature = std::isnan(d.temperature) ? def.ambientTemperature : d.temperature;
@@ -751,8 +753,21 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
 }
 
 LevelFrame World::levelFrame(const thawWork& work) {
-    return {particles,        neighbors_,         reference_,  materials.data(), tasks,  def.particleSpacing,
-            work.finestLevel, work.coarsestLevel, work.splits, steps_,           nextId_};
+    return {particles,
+            neighbors_,
+            reference_,
+            materials.data(),
+            tasks,
+            def.particleSpacing,
+            work.finestLevel,
+            work.coarsestLevel,
+            work.splits,
+            steps_,
+            nextId_,
+            colliders.data(),
+            static_cast<int>(colliders.size()),
+            coarsestOf_.data(),
+            motion_.densityErrors()};
 }
 
 Vec3 World::refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume) {

@@ -130,6 +130,7 @@ private:
         uint32_t begin = 0, end = 0;
     };
     std::vector<PointRange> bodyPoints_; // per body
+    std::vector<uint8_t> coarsestOf_;    // per body, its coarsestLevel
     Governor governor_;
     Array<float> volume_, invDensity_;
     Array<Totals> blockTotals_;
@@ -150,7 +151,7 @@ private:
     int exposed_ = 0;
     bool anyCoarse_ = false;     // some particle of level 1 or higher
     bool levelsChanged_ = false; // in the last step
-    struct Expanded {        // what the surface is made of: the finest points in place of what is coarse
+    struct Expanded {            // what the surface is made of: the finest points in place of what is coarse
         explicit Expanded(Allocator& a) : position(a), temperature(a), liquidFraction(a), material(a), flags(a) {}
         Array<Vec4> position;
         Array<float> temperature, liquidFraction;
