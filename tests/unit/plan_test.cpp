@@ -179,6 +179,47 @@ TEST_CASE("governor: many sub-cycles of heat are cut to what fits") {
     CHECK(w.heatCycles < 30);
 }
 
+TEST_CASE("governor: coarser particles when nothing else is left, finer ones when there is room for long") {
+    Governor g;
+    Machine m;
+    thawWork w{};
+    // Movers that follow the level that is asked for, a few in each frame.
+    double movers = 30000;
+    const auto run = [&](int frames, float budget, int& changes, int& over) {
+        int last = w.finestLevel;
+        for (int i = 0; i < frames; ++i) {
+            Needs n = busy();
+            n.movers = static_cast<int>(movers), n.particles = n.movers + 4000, n.exposed = n.movers / 2;
+            over += frame(g, m, n, budget, &w) > budget;
+            const double wanted = 30000.0 / (1 << w.finestLevel);
+            movers += (wanted > movers ? 0.01 : 0.06) * (wanted - movers);
+            changes += w.finestLevel != last, last = w.finestLevel;
+        }
+    };
+    int changes = 0, over = 0;
+    run(300, 200, changes, over);
+    CHECK(w.finestLevel == 0);
+    run(200, 8, changes, over); // at level 0 the least of all takes 16 ms
+    CHECK(w.finestLevel >= 1);
+    changes = over = 0;
+    run(1800, 8, changes, over);
+    CHECK(over == 0);
+    CHECK(changes <= 1); // it stays where it is
+    run(3000, 200, changes, over);
+    CHECK(w.finestLevel == 0);
+    // A world without room for more rows.
+    Governor full;
+    Needs n = busy();
+    n.full = true;
+    float predicted;
+    for (int i = 0; i < 15; ++i) w = full.choose(n, 100, kFull, 1, predicted);
+    CHECK(w.finestLevel == 1);
+    thawWork fine = kFull;
+    fine.coarsestLevel = 0;
+    for (int i = 0; i < 200; ++i) w = full.choose(n, 100, fine, 1, predicted);
+    CHECK(w.finestLevel == 0);
+}
+
 TEST_CASE("governor: never more than the host's limit") {
     Governor g;
     float predicted;

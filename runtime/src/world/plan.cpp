@@ -78,6 +78,11 @@ constexpr int kClimbAfter = 30;     // good frames
 // What an exposed particle costs radiation without a ray of its own (it shades others), in rays.
 constexpr float kRayShare = 0.25f;
 
+// Levels come after all that: what they save takes half a second to merge, and the beads get coarser. They do when the
+// quality of kLeastSeen has not fitted for so many frames on end, and a finer one comes back when twice the particles
+// would fit for much longer.
+constexpr int kLeastSeen = 6, kCoarserAfter = 10, kFinerAfter = 180, kMergeFrames = 40;
+
 thawWork clip(const Quality& q, const thawWork& limit) {
     return {std::min(q.subSteps, limit.subSteps),
             std::min(q.pressure, limit.pressureIterations),
@@ -115,8 +120,23 @@ float Governor::predict(const Needs& n, const thawWork& w, int subStepsWanted) c
     return ms;
 }
 
+void Governor::chooseLevel(const Needs& n, float milliseconds, const thawWork& limit, int subStepsWanted) {
+    const thawWork seen = clip(kQualities[kLeastSeen], limit);
+    const bool tight = n.full || (n.movers > 0 && predict(n, seen, subStepsWanted) > kFill * milliseconds);
+    Needs finer = n;
+    finer.particles += n.movers, finer.movers *= 2, finer.exposed += n.exposed / 2;
+    const bool roomy = !tight && predict(finer, seen, subStepsWanted) <= kClimbFill * milliseconds;
+    // Below 0: what was merged just now has not shown yet.
+    tight_ = tight ? tight_ + 1 : std::min(tight_, 0);
+    roomy_ = roomy ? roomy_ + 1 : 0;
+    if (tight_ >= kCoarserAfter && finest_ < 3) ++finest_, tight_ = -kMergeFrames, roomy_ = 0;
+    if (roomy_ >= kFinerAfter && finest_ > 0) --finest_, roomy_ = 0;
+    finest_ = std::max(finest_, 0);
+}
+
 thawWork Governor::choose(const Needs& needs, float milliseconds, const thawWork& limit, int subStepsWanted,
                           float& predictedMs) {
+    chooseLevel(needs, milliseconds, limit, subStepsWanted);
     int best = kQualityCount - 1;
     for (int q = 0; q < kQualityCount; ++q)
         if (predict(needs, clip(kQualities[q], limit), subStepsWanted) <= kFill * milliseconds) {
@@ -133,7 +153,8 @@ thawWork Governor::choose(const Needs& needs, float milliseconds, const thawWork
     } else {
         goodFrames_ = 0;
     }
-    const thawWork work = clip(kQualities[quality_], limit);
+    thawWork work = clip(kQualities[quality_], limit);
+    work.finestLevel = std::max(limit.finestLevel, std::min(finest_, limit.coarsestLevel));
     predictedMs = predict(needs, work, subStepsWanted);
     return work;
 }

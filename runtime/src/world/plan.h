@@ -25,6 +25,7 @@ struct Needs {
     bool levels = false;                    // some solid could be coarser or finer than it is
     bool levelsChanged = false;             // the last look at them changed some, or left some for later
     int finestLevel = 0, coarsestLevel = 3; // of the last plan
+    bool full = false;                      // the last step had no room for particles that should have split
 };
 
 // Stages on and off, with the reason: model only what the scene requires.
@@ -51,6 +52,7 @@ public:
     void learn(const Cost& cost);
 
 private:
+    void chooseLevel(const Needs& needs, float milliseconds, const thawWork& limit, int subStepsWanted);
     float predict(const Needs& needs, const thawWork& work, int subStepsWanted) const;
     // Milliseconds per unit, running estimates; start values from a 2-core machine, replaced within a few frames.
     float perParticle_ = 8e-5f;     // lists and sort, per particle and sub-step
@@ -66,6 +68,9 @@ private:
     int heatWanted_ = 1;            // sub-cycles of the last heat
     int quality_ = 0;
     int goodFrames_ = 0;
+    int finest_ = 0; // level
+    int tight_ = 0;  // frames on end that need a coarser one
+    int roomy_ = 0;  // or would hold a finer one
 };
 
 } // namespace thaw

@@ -191,6 +191,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
         if (levelResult.split + levelResult.merged > 0) listsStale_ = true;
         if (levelResult.refused) status |= thawStep_splitsClipped;
         levelsChanged_ = levelResult.split + levelResult.merged > 0;
+        full_ = levelResult.refused && particles.count + kHighestLevel >= particles.capacity;
     }
     if (on(thawStage_stats)) {
         auto t = timed(thawStage_stats);
@@ -251,7 +252,7 @@ Needs World::needs() const {
     }
     n.timeScaleZero = def.thermalTimeScale == 0;
     n.levels = anyCoarse_ || std::any_of(coarsestOf_.begin(), coarsestOf_.end(), [](uint8_t c) { return c > 0; });
-    n.levelsChanged = levelsChanged_;
+    n.levelsChanged = levelsChanged_, n.full = full_;
     n.finestLevel = plan.work.finestLevel, n.coarsestLevel = plan.work.coarsestLevel;
     for (const Material& m : materials)
         n.burns |= !n.timeScaleZero && m.def.burnTemperature > 0 && maxTemperature_ > m.def.burnTemperature;

@@ -151,6 +151,7 @@ private:
     int exposed_ = 0;
     bool anyCoarse_ = false;     // some particle of level 1 or higher
     bool levelsChanged_ = false; // in the last step
+    bool full_ = false;          // and some could not split for want of room
     struct Expanded {            // what the surface is made of: the finest points in place of what is coarse
         explicit Expanded(Allocator& a) : position(a), temperature(a), liquidFraction(a), material(a), flags(a) {}
         Array<Vec4> position;
