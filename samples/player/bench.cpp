@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
+#include "bench_levels.h"
 #include "bench_registry.h"
 #include "run.h"
 
@@ -115,6 +116,7 @@ void addBench(CLI::App& app, int& exitCode) {
     command->add_flag("--quiet", o->quiet, "No progress on stderr");
     command->callback([=, &exitCode] { exitCode = benchScenes(*o); });
 
+    addBenchLevels(*bench, exitCode);
     std::vector<BenchEntry> entries = benchEntries();
     std::sort(entries.begin(), entries.end(),
               [](const BenchEntry& a, const BenchEntry& b) { return std::string(a.name) < b.name; });
