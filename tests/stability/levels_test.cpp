@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -72,6 +73,7 @@ TEST_CASE("levels: an unheated body of coarse particles has the mass, the area a
         for (int i = 0; i < v.count; ++i) a += static_cast<double>(v.normals[4 * i + 3]);
         return a;
     };
+    CHECK(area(coarse) == doctest::Approx(area(fine)).epsilon(0.002)); // at the first look, which may be the only one
     fine.step(), coarse.step();
     CHECK(area(coarse) == doctest::Approx(area(fine)).epsilon(0.002));
     const thawParticleView v = coarse.particles();
@@ -264,4 +266,94 @@ TEST_CASE("levels: a pool at rest hardly notices that it merges and splits") {
             CHECK(f.ledger().massError < 1e-6);
         }
     }
+}
+
+TEST_CASE("levels: heat runs along bricks of two and four points as it runs across them") {
+    for (const int level : {1, 2}) {
+        double passed[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            WorldFixture f;
+            f.def.thermalTimeScale = 400, f.def.gravity = {0, 0, 0}, f.def.convection = 0;
+            f.def.particleSpacing = 0.002f;
+            f.create();
+            thawMaterialDef m;
+            thawInitMaterialDef(&m, thawMaterial_wax);
+            m.absorptivity = m.emissivity = 0, m.solidus = m.liquidus = 1e4f;
+            f.addMaterial(m);
+            f.budget.work.finestLevel = f.budget.work.coarsestLevel = level;
+            for (const int half : {0, 1}) {
+                float low[3] = {0, 0, 0}, high[3] = {0.024f, 0.024f, 0.024f};
+                low[axis] = 0.032f * static_cast<float>(half), high[axis] = low[axis] + 0.032f;
+                const Shape s = boxShape({low[0], low[1], low[2]}, {high[0], high[1], high[2]});
+                thawBodyDef d;
+                thawInitBodyDef(&d);
+                d.material = f.material, d.mesh = s.mesh(), d.coarsestLevel = level;
+                d.temperature = half ? 300.0f : 400.0f;
+                thawBodyId id;
+                REQUIRE(thawCreateBody(f.world, &d, &id, nullptr) == thawResult_ok);
+            }
+            REQUIRE(f.counters().levels[level] == f.counters().particles);
+            f.step(120);
+            passed[axis] = 0;
+            const thawParticleView v = f.particles();
+            for (int i = 0; i < v.count; ++i)
+                if (v.positions[4 * i + axis] > 0.032f)
+                    passed[axis] += static_cast<double>(v.temperatures[i] - 300) / v.count;
+        }
+        CHECK(passed[0] > 1);
+        CHECK(passed[1] == doctest::Approx(passed[0]).epsilon(0.03));
+        CHECK(passed[2] == doctest::Approx(passed[0]).epsilon(0.03));
+    }
+}
+
+TEST_CASE("levels: paint on coarse particles is as fine as on fine ones, and does not merge away") {
+    const auto painted = [](int coarsest, int maxParticles, std::map<std::array<int, 3>, int>& absorbs) {
+        auto f = std::make_unique<WorldFixture>();
+        f->def.maxParticles = maxParticles, f->def.gravity = {0, 0, 0};
+        f->create(), f->addMaterial();
+        const Shape s = boxShape({0, 0, 0}, {0.024f, 0.024f, 0.024f});
+        thawBodyDef d;
+        thawInitBodyDef(&d);
+        d.material = f->material, d.mesh = s.mesh(), d.coarsestLevel = coarsest;
+        thawBodyId id;
+        REQUIRE(thawCreateBody(f->world, &d, &id, nullptr) == thawResult_ok);
+        const thawBrush brush{{0.012f, 0.024f, 0.012f}, 0.0071f, 0};
+        int32_t n = 0;
+        REQUIRE(thawBody_PaintAbsorptivity(f->world, id, &brush, 0.75f, &n) == thawResult_ok);
+        int seen = 0;
+        const auto look = [&] {
+            absorbs.clear(), seen = 0;
+            const thawParticleView v = f->particles();
+            for (int i = 0; i < v.count; ++i) {
+                const float* x = v.positions + 4 * i;
+                const auto at = [&](int a) { return static_cast<int>(std::lround(x[a] * 1e5f)); };
+                absorbs[{at(0), at(1), at(2)}] = v.absorptivities[i];
+                seen += v.absorptivities[i] > 0;
+            }
+        };
+        look();
+        CHECK(seen == n);
+        f->step(200); // merging is free to happen
+        look();
+        return std::make_pair(n, seen);
+    };
+    std::map<std::array<int, 3>, int> fine, coarse, full;
+    const auto [one, kept] = painted(0, 4000, fine);
+    const auto [two, left] = painted(3, 4000, coarse);
+    CHECK(one > 50);
+    CHECK(one == kept);
+    CHECK(two == one);
+    // Every fine particle is the paint of the fine body there; what merged is within it or outside.
+    CHECK(coarse.size() < fine.size());
+    int mixed = 0, same = 0;
+    for (const auto& [x, a] : coarse)
+        if (const auto it = fine.find(x); it != fine.end()) (it->second == a ? same : mixed) += 1;
+    CHECK(same > 30);
+    CHECK(mixed == 0);
+    CHECK(left <= two);
+    // Where there is no room they are painted whole: those whose middle is in the brush.
+    const auto [three, whole] = painted(3, static_cast<int>(fine.size() / 8), full);
+    CHECK(full.size() == fine.size() / 8);
+    CHECK(three > 0);
+    CHECK(whole == three);
 }

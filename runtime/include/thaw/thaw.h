@@ -325,7 +325,9 @@ typedef struct thawBrush {
 } thawBrush;
 /* Gives the body's particles in the brush a temperature (K, range 0..1e5), or where the brush fades what lies so much
  * of the way to it from their own. They melt or set as if made with it; the heat is in thawLedger.painted. *painted,
- * which may be NULL, is how many were in it. Deterministic; paint again for more than one spot. */
+ * which may be NULL, is how many were in it. Deterministic; paint again for more than one spot. Coarse particles that
+ * the brush touches split to the finest first (thawBodyDef.coarsestLevel); where maxParticles leaves no room for that,
+ * they stay and are painted whole when their middle is in the brush. */
 THAW_API thawResult thawBody_PaintTemperature(thawWorld* world, thawBodyId id, const thawBrush* brush,
                                               float temperature, int32_t* painted);
 /* The same with the share of incoming radiation that they take up (range 0..1, in steps of 1/254), in place of their

@@ -27,4 +27,20 @@ struct ConductionPass {
 };
 void conductionPass(const ConductionPass& pass, int beginGroup, int endGroup);
 
+// Particles of level 1 and 2 are bricks of 2 x 1 x 1 and 2 x 2 x 1 fine ones, whose lattices lack 66 % of the second
+// moment along the length of the one and 16 % across the thickness of the other. Per entry, the gradient times
+// f_i f_j (2 / (f_i^2 + f_j^2))^(1/2) with f = |w| + sign(w) (n . e)^2, e the direction of the pair: the more even one
+// of a pair counts for more, since what lies beside a brick samples it as well. (Heat that crosses from level 3 to
+// bricks end on: 5 % too much with the plain mean, 3 % too little with the smaller one, 1.5 % with this.)
+struct ConductionFactors {
+    const uint32_t* entries;
+    const float* gradient;
+    const uint32_t* first;
+    const uint32_t* width;
+    const Vec4* position;
+    const Vec4* axis; // xyz n, w; padded; w 1 of what needs no factor, and of dummies
+    float* out;       // like gradient
+};
+void conductionFactors(const ConductionFactors& factors, int group);
+
 } // namespace thaw

@@ -35,6 +35,27 @@ void conductionGroups(const ConductionPass& a, int begin, int end) {
         }
 }
 
+void factorsOfGroup(const ConductionFactors& a, int g) {
+    const F32 twice = all(2.0f), tiny = all(1e-30f);
+    for (int part = 0; part < 8; part += kLanes) {
+        const uint32_t* entry = a.entries + a.first[g] + part;
+        const float* c = a.gradient + a.first[g] + part;
+        float* out = a.out + a.first[g] + part;
+        const Rows i = loadRows(a.position + 8 * g + part), m = loadRows(a.axis + 8 * g + part);
+        for (uint32_t k = 0; k < a.width[g]; ++k, entry += 8, c += 8, out += 8) {
+            const Rows j = gatherRows(a.position, entry), n = gatherRows(a.axis, entry);
+            const F32 dx = hn::Sub(i.x, j.x), dy = hn::Sub(i.y, j.y), dz = hn::Sub(i.z, j.z);
+            const F32 r2 = hn::Max(dot3(dx, dy, dz, dx, dy, dz), tiny);
+            const F32 own = dot3(dx, dy, dz, m.x, m.y, m.z), its = dot3(dx, dy, dz, n.x, n.y, n.z);
+            // Both sides of a pair round alike.
+            const F32 one = hn::Add(hn::Abs(m.w), hn::CopySign(hn::Div(hn::Mul(own, own), r2), m.w));
+            const F32 two = hn::Add(hn::Abs(n.w), hn::CopySign(hn::Div(hn::Mul(its, its), r2), n.w));
+            const F32 squares = hn::Add(hn::Mul(one, one), hn::Mul(two, two));
+            store(hn::Mul(load(c), hn::Mul(hn::Mul(one, two), hn::Sqrt(hn::Div(twice, squares)))), out);
+        }
+    }
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace thaw
 HWY_AFTER_NAMESPACE();
@@ -43,9 +64,14 @@ HWY_AFTER_NAMESPACE();
 namespace thaw {
 
 HWY_EXPORT(conductionGroups);
+HWY_EXPORT(factorsOfGroup);
 
 void conductionPass(const ConductionPass& pass, int beginGroup, int endGroup) {
     HWY_DYNAMIC_DISPATCH(conductionGroups)(pass, beginGroup, endGroup);
+}
+
+void conductionFactors(const ConductionFactors& factors, int group) {
+    HWY_DYNAMIC_DISPATCH(factorsOfGroup)(factors, group);
 }
 
 float conductionMoment() {

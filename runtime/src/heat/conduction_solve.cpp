@@ -125,15 +125,24 @@ void Conduction::pairPass(const HeatFrame& f, bool weights) {
                               state.data(),
                               flow.data(),
                               weights ? weight.data() : nullptr};
+    enum Kind { kPlain, kScaled, kAsleep };
+    const auto kindOf = [&](int g) {
+        const size_t k = static_cast<size_t>(g);
+        return sleepers > 0 && groupAsleep[k] ? kAsleep : bricks && groupScaled[k] ? kScaled : kPlain;
+    };
     f.tasks.forBlocks(n.groupCount, kGroupBlock, [&](int begin, int end, int, int) {
-        if (sleepers == 0) return conductionPass(pass, begin, end);
+        if (sleepers == 0 && !bricks) return conductionPass(pass, begin, end);
+        ConductionPass own = pass;
         for (int g = begin; g < end;) {
             const int from = g;
-            while (g < end && !groupAsleep[static_cast<size_t>(g)]) ++g;
-            if (g > from) conductionPass(pass, from, g);
-            for (; g < end && groupAsleep[static_cast<size_t>(g)]; ++g) {
-                std::fill_n(flow.data() + 8 * g, 8, 0.0f);
-                if (weights) std::fill_n(weight.data() + 8 * g, 8, 0.0f);
+            const Kind kind = kindOf(g);
+            while (g < end && kindOf(g) == kind) ++g;
+            if (kind == kAsleep) {
+                std::fill_n(flow.data() + 8 * from, 8 * (g - from), 0.0f);
+                if (weights) std::fill_n(weight.data() + 8 * from, 8 * (g - from), 0.0f);
+            } else {
+                own.gradient = kind == kScaled ? scaled.data() : pass.gradient;
+                conductionPass(own, from, g);
             }
         }
     });
@@ -288,6 +297,7 @@ double Conduction::run(const HeatFrame& f, const WallContact* wallContacts) {
     done = 1, sleepers = 0;
     fillState(f);
     findSleepers(f);
+    scalePairs(f);
     pairPass(f, true);
     const double needed = std::ceil(f.dt * fastest(f) / kExplicit);
     wanted = static_cast<int>(std::clamp(needed, 1.0, 1e6));

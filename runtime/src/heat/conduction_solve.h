@@ -14,7 +14,7 @@ class Conduction {
 public:
     explicit Conduction(Allocator& a)
         : state(a), flow(a), weight(a), direction(a), residual(a), solution(a), heat(a), exchange(a), inverse(a),
-          blockSums(a), extents(a), asleep(a), groupAsleep(a) {}
+          blockSums(a), extents(a), asleep(a), groupAsleep(a), axis(a), scaled(a), groupScaled(a) {}
 
     // walls: per row, or null. Returns what came in from them, J.
     double run(const HeatFrame& f, const WallContact* walls);
@@ -29,6 +29,7 @@ private:
     };
     void pairPass(const HeatFrame& f, bool weights);
     void fillState(const HeatFrame& f);
+    void scalePairs(const HeatFrame& f); // of bricks: see ConductionFactors
     double fastest(const HeatFrame& f);
     double explicitStep(const HeatFrame& f, double dt);
     double implicitStep(const HeatFrame& f);
@@ -50,6 +51,10 @@ private:
     Array<Sums> blockSums;
     Array<Extent> extents;              // per block and body; the first bodies' of them all
     Array<uint8_t> asleep, groupAsleep; // per body; per group: its rows are all of such bodies
+    bool bricks = false;                // some row is one
+    Array<Vec4> axis;                   // see ConductionFactors
+    Array<float> scaled;                // like the gradient of the lists, of the groups that need it
+    Array<uint8_t> groupScaled;         // per group: it does
 };
 
 } // namespace thaw

@@ -7,6 +7,7 @@
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
 #include "particles/particles.h"
+#include "particles/reference.h"
 
 namespace thaw {
 
@@ -41,10 +42,11 @@ struct HeatFrame {
     float rayRefresh; // share of the lit particles that may look anew
     int cycles;       // explicit sub-cycles of conduction at most
     int raysPerSource;
-    uint64_t surfaceVersion;   // changes with the rows, their places and normals; 0: not known
-    const thawRaySystem* rays; // the host's, or null
-    bool undercools = false;   // some material does
-    int bodyCount = 0;         // of which some may be gone; 0: bodies are not told apart
+    uint64_t surfaceVersion;              // changes with the rows, their places and normals; 0: not known
+    const thawRaySystem* rays;            // the host's, or null
+    bool undercools = false;              // some material does
+    int bodyCount = 0;                    // of which some may be gone; 0: bodies are not told apart
+    const Reference* reference = nullptr; // null: no particle is coarse
 };
 
 struct HeatStats {

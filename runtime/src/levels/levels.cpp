@@ -101,6 +101,37 @@ int Levels::target(const LevelFrame& f, size_t row) const {
     return std::clamp(levelOf(f.particles.want[row]), f.finest, std::max(f.finest, f.coarsest));
 }
 
+void Levels::splitRow(const LevelFrame& f, size_t i, int to) {
+    Particles& p = f.particles;
+    const int level = p.level[i], parts = 1 << (level - to);
+    const uint32_t begin = p.fine[i] - 1;
+    const Vec3 shift = p.position[i].xyz() - f.reference.center(begin, level);
+    for (int part = parts - 1; part >= 0; --part) {
+        const size_t k = part == 0 ? i : static_cast<size_t>(p.count++);
+        if (part > 0) {
+#define X(type, name) p.name[k] = p.name[i];
+            THAW_PARTICLE_FIELDS(X)
+#undef X
+            p.id[k] = f.nextId++;
+        }
+        const uint32_t first = begin + (static_cast<uint32_t>(part) << to);
+        p.fine[k] = first + 1, p.level[k] = static_cast<uint8_t>(to);
+        const Vec3 x = f.reference.center(first, to) + shift;
+        p.position[k] = {x.x, x.y, x.z, supportOf(f.spacing, to)};
+        p.velocity[k].w /= static_cast<float>(parts); // a power of two: exact
+        p.normal[k] = {}, p.rayAge[k] = 0;
+    }
+}
+
+bool Levels::splitFully(const LevelFrame& f, size_t row) {
+    Particles& p = f.particles;
+    if (p.level[row] == 0 || !p.fine[row] || (1 << p.level[row]) - 1 > p.capacity - p.count) return false;
+    p.want[row] = 0; // and do not merge before the next look
+    splitRow(f, row, 0);
+    p.pad();
+    return true;
+}
+
 LevelResult Levels::apply(const LevelFrame& f) {
     Particles& p = f.particles;
     LevelResult result;
@@ -137,29 +168,13 @@ void Levels::solids(const LevelFrame& f, LevelResult& result) {
         if (p.level[i] == 0 && f.finest == 0 && (p.id[i] ^ step) % kFineTurns != 0) continue;
         const int level = p.level[i], wanted = target(f, i);
         if (level > wanted) {
-            const int parts = 1 << (level - wanted);
-            if (parts - 1 > room_) {
+            const int more = (1 << (level - wanted)) - 1;
+            if (more > room_) {
                 result.refused = true;
                 continue;
             }
-            room_ -= parts - 1, result.split += parts - 1;
-            const uint32_t begin = p.fine[i] - 1;
-            const Vec3 shift = p.position[i].xyz() - f.reference.center(begin, level);
-            for (int part = parts - 1; part >= 0; --part) {
-                const size_t to = part == 0 ? i : static_cast<size_t>(p.count++);
-                if (part > 0) {
-#define X(type, name) p.name[to] = p.name[i];
-                    THAW_PARTICLE_FIELDS(X)
-#undef X
-                    p.id[to] = f.nextId++;
-                }
-                const uint32_t first = begin + (static_cast<uint32_t>(part) << wanted);
-                p.fine[to] = first + 1, p.level[to] = static_cast<uint8_t>(wanted);
-                const Vec3 x = f.reference.center(first, wanted) + shift;
-                p.position[to] = {x.x, x.y, x.z, supportOf(f.spacing, wanted)};
-                p.velocity[to].w /= static_cast<float>(parts); // a power of two: exact
-                p.normal[to] = {}, p.rayAge[to] = 0;
-            }
+            room_ -= more, result.split += more;
+            splitRow(f, i, wanted);
         } else if (result.merged < kMostMerges && mergeSolid(f, i)) {
             ++result.merged;
         }
@@ -193,7 +208,8 @@ bool Levels::mergeSolid(const LevelFrame& f, size_t i) {
     gone_[j] = 1;
     const Vec3 x = 0.5f * (xi + xj);
     p.position[i] = {x.x, x.y, x.z, supportOf(f.spacing, level + 1)};
-    p.velocity[i].w += p.velocity[j].w;
+    const Vec4 vi = p.velocity[i], vj = p.velocity[j];
+    p.velocity[i] = {0.5f * (vi.x + vj.x), 0.5f * (vi.y + vj.y), 0.5f * (vi.z + vj.z), vi.w + vj.w};
     p.enthalpy[i] = 0.5 * (p.enthalpy[i] + p.enthalpy[j]);
     p.temperature[i] = m.temperature(p.enthalpy[i]), p.liquidFraction[i] = m.liquidFraction(p.enthalpy[i]);
     p.level[i] = static_cast<uint8_t>(level + 1);

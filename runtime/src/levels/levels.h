@@ -53,8 +53,12 @@ public:
     void choose(const LevelFrame& f, const float* flux, bool all);
     // Splits and merges. Rows are added behind the others and taken out: all lists are stale after it.
     LevelResult apply(const LevelFrame& f);
+    // Splits one row to the finest, whatever it wants: the others come behind the last row. False, and nothing is
+    // changed, when it cannot: it is no coarse one, or there is no room.
+    static bool splitFully(const LevelFrame& f, size_t row);
 
 private:
+    static void splitRow(const LevelFrame& f, size_t row, int to);
     int target(const LevelFrame& f, size_t row) const;
     uint8_t wantOfSolid(const LevelFrame& f, int row, const float* flux) const;
     uint8_t wantOfLiquid(const LevelFrame& f, int row) const;

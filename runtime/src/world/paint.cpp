@@ -14,8 +14,27 @@ float strength(const thawBrush& b, Vec3 x) {
 
 } // namespace
 
+// Coarse particles would be painted whole. Those for whose parts there is no room are.
+void World::splitUnder(uint32_t body, const thawBrush& brush) {
+    if (!anyCoarse_) return;
+    const LevelFrame frame = levelFrame(plan.work);
+    const int rows = particles.count; // what splits off is fine
+    bool any = false;
+    for (int i = 0; i < rows; ++i) {
+        const size_t k = static_cast<size_t>(i);
+        if (particles.body[k] != body || particles.level[k] == 0 || !particles.fine[k]) continue;
+        bool touched = false;
+        reference_.forPoints(particles, k, [&](Vec3 x, uint32_t) { touched |= strength(brush, x) > 0; });
+        any |= touched && Levels::splitFully(frame, k);
+    }
+    if (!any) return;
+    listsStale_ = levelsChanged_ = true;
+    measure();
+}
+
 int World::paintTemperature(uint32_t body, const thawBrush& brush, float temperature) {
     int painted = 0;
+    splitUnder(body, brush);
     for (int i = 0; i < particles.count; ++i) {
         const size_t k = static_cast<size_t>(i);
         const float share = particles.body[k] == body ? strength(brush, particles.position[k].xyz()) : 0.0f;
@@ -38,6 +57,7 @@ int World::paintTemperature(uint32_t body, const thawBrush& brush, float tempera
 
 int World::paintAbsorptivity(uint32_t body, const thawBrush& brush, float value) {
     int painted = 0;
+    splitUnder(body, brush);
     for (int i = 0; i < particles.count; ++i) {
         const size_t k = static_cast<size_t>(i);
         const float share = particles.body[k] == body ? strength(brush, particles.position[k].xyz()) : 0.0f;

@@ -499,7 +499,8 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
             surfaceVersion_,
             &def.rays,
             std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.def.undercooling > 0; }),
-            static_cast<int>(bodies.size())};
+            static_cast<int>(bodies.size()),
+            anyCoarse_ ? &reference_ : nullptr};
 }
 
 HoldFrame World::holdFrame(float dt, bool relabel) {
@@ -707,6 +708,7 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
 #undef X
         particles.position[k] = {x.x, x.y, x.z, supportOf(def.particleSpacing, level)};
         particles.level[k] = static_cast<uint8_t>(level);
+        anyCoarse_ |= level > 0; // before the first look at its area
         if (!groups.order.empty() && startsCoarse(m, temperature)) {
             particles.fine[k] = bodyPoints_[slot].begin + static_cast<uint32_t>(at) + 1;
             particles.want[k] = Levels::kFar;

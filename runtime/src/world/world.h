@@ -110,6 +110,7 @@ private:
     template <class F> int removeParticles(F&& remove, double& mass, double& energy);
     void burnOff(double heatSeconds);
     LevelFrame levelFrame(const thawWork& work);
+    void splitUnder(uint32_t body, const thawBrush& brush);
     // Adds the points of a body to the reference, in the order of their groups. Returns where its origin is.
     Vec3 refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume);
     void forget(size_t slot);

@@ -17,15 +17,19 @@ struct Melting {
 };
 thawMaterialDef stays(const Melting& m);
 
-// A world without gravity, whose air takes no heat, with a bar along x between four insulating walls: sections of any
-// materials and temperatures one after the other, each a body of its own.
+double areaOf(const scene::TriMesh& mesh);
+double exposedArea(const Lab& lab); // m^2, of all particles
+
+// A world without gravity, whose air takes no heat, with a bar along an axis between four insulating walls: sections of
+// any materials and temperatures one after the other, each a body of its own.
 class Bar {
 public:
-    // spacing in m, width of the cross-section in particles
-    Bar(float spacing, int width, int maxParticles, float timeScale, double ambient);
-    // Appends `layers` layers.
-    void section(const thawMaterialDef& material, int layers, double temperature);
-    void section(thawMaterialId material, int layers, double temperature);
+    // spacing in m, width of the cross-section in particles; axis 0..2: x, y, z
+    Bar(float spacing, int width, int maxParticles, float timeScale, double ambient, int axis = 0);
+    // Appends `layers` layers, filled with particles of a level; layers and width must be even where it is above 0. The
+    // plan decides whether they keep it (lab.budget.work).
+    void section(const thawMaterialDef& material, int layers, double temperature, int level = 0);
+    void section(thawMaterialId material, int layers, double temperature, int level = 0);
     // A wall at this temperature where the bar begins, or where it ends now; perfect contact.
     void holdBegin(double temperature);
     void holdEnd(double temperature);
@@ -35,6 +39,10 @@ public:
     double time() const { return time_; } // s of heat
 
     int layers() const { return layers_; }
+    // m from the beginning of a particle, by its index in the view
+    double along(const thawParticleView& view, int particle) const {
+        return static_cast<double>(view.positions[4 * particle + axis_]);
+    }
     // Mean over a layer, counted from the bar's beginning.
     std::vector<double> temperatures() const;
     double molten() const; // layers, the sum of the mean liquid fractions
@@ -44,7 +52,7 @@ private:
     void hold(float x, float direction, double temperature);
     std::vector<double> means(const float* values) const;
     float spacing_, timeScale_;
-    int width_, layers_ = 0;
+    int width_, layers_ = 0, axis_;
     double time_ = 0;
 };
 

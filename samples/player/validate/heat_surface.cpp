@@ -14,31 +14,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846, kStefanBoltzmann = 5.670374419e-8;
 
-double areaOf(const scene::TriMesh& m) {
-    double sum = 0;
-    for (size_t t = 0; t + 2 < m.indices.size(); t += 3) {
-        double e[2][3];
-        for (size_t k = 0; k < 3; ++k)
-            for (size_t s = 0; s < 2; ++s)
-                e[s][k] = static_cast<double>(m.vertices[3 * m.indices[t + 1 + s] + k]) -
-                          static_cast<double>(m.vertices[3 * m.indices[t] + k]);
-        double square = 0;
-        for (size_t k = 0; k < 3; ++k) {
-            const size_t a = (k + 1) % 3, b = (k + 2) % 3;
-            const double c = e[0][a] * e[1][b] - e[0][b] * e[1][a];
-            square += c * c;
-        }
-        sum += 0.5 * std::sqrt(square);
-    }
-    return sum;
-}
-
-double exposedArea(const Lab& lab) {
-    const thawParticleView p = lab.particles();
-    double sum = 0;
-    for (int i = 0; i < p.count; ++i) sum += static_cast<double>(p.normals[4 * i + 3]);
-    return sum;
-}
 double massOf(const Lab& lab) {
     const thawParticleView p = lab.particles();
     double sum = 0;

@@ -22,13 +22,14 @@ struct Suite {
 };
 
 std::vector<Suite> suites() {
-    return {{"motion",
-             "liquids, solids and colliders at one step per frame",
-             {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases(), softCases(),
-              softContactCases(), rigidCases(), pieceCases()}},
-            {"heat",
-             "conduction, contact, phase change, radiation and loss",
-             {conductionCases(), stefanCases(), radiationCases(), surfaceCases(), undercoolingCases()}}};
+    return {
+        {"motion",
+         "liquids, solids and colliders at one step per frame",
+         {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases(), softCases(), softContactCases(),
+          rigidCases(), pieceCases()}},
+        {"heat",
+         "conduction, contact, phase change, radiation and loss",
+         {conductionCases(), stefanCases(), radiationCases(), surfaceCases(), heatLevelCases(), undercoolingCases()}}};
 }
 
 struct Options {

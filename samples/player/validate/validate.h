@@ -50,6 +50,7 @@ CaseList softContactCases();
 CaseList rigidCases();
 CaseList pieceCases();
 CaseList conductionCases();
+CaseList heatLevelCases();
 CaseList radiationCases();
 CaseList stefanCases();
 CaseList surfaceCases();
