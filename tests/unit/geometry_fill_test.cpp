@@ -77,6 +77,15 @@ TEST_CASE("a box of whole layers is filled with the lattice itself") {
     }
 }
 
+TEST_CASE("a long bar of two triangles a side has no holes") {
+    for (const float length : {125.0f, 150.0f, 300.0f, 600.0f}) {
+        CAPTURE(length);
+        Filled f = fill(shapes::box({length, 3, 3}), 1);
+        REQUIRE(f.points.size() == static_cast<size_t>(9 * length));
+        for (Vec3 p : f.points) REQUIRE(std::abs(p.y - std::round(p.y)) < 1e-3f);
+    }
+}
+
 TEST_CASE("the same bits at one and three workers") {
     shapes::Mesh mesh = shapes::torus(9, 3.3f, 64, 32);
     Filled one = fill(mesh, 1, 1, 1), three = fill(mesh, 1, 1, 3);

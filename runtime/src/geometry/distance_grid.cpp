@@ -24,6 +24,10 @@ inline float trilinear(const float* v, size_t dy, size_t dz, float fx, float fy,
     return b0 + fz * (b1 - b0);
 }
 
+// The distance of a node on a face comes out as up to some thousandths of a cell when the triangles are slender: with
+// 1.001, bars of more than 125 spacings kept the side of such a node across the face, and had holes.
+constexpr float kStep = 1.1f; // cells
+
 // Decides inside or outside along a walk from node to node. A step that cannot have crossed a triangle keeps the side;
 // only steps near the surface pay for a winding number. With holes the number drifts also where there is no triangle,
 // so a side is kept for three steps at most, and only where it was clear.
@@ -67,7 +71,7 @@ void fillNodes(const TriangleTree& tree, bool watertight, Vec3 first, float cell
                 TriangleTree::Nearest near = tree.nearest(p, node.hint, band * band);
                 float d = std::sqrt(near.distance2);
                 if (near.distance2 < band * band) node.hint = near.triangle;
-                *at(x, y, z) = node.walk.inside(p, d, cell * 1.001f) ? -d : d;
+                *at(x, y, z) = node.walk.inside(p, d, cell * kStep) ? -d : d;
                 if (x == 0) row = node;
                 if (x == 0 && y == 0) slab = node;
             }

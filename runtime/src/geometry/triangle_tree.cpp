@@ -48,6 +48,14 @@ inline Vec3 nearestOnTriangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
         float s = (d4 - d3) + (d5 - d6);
         return s > 0 ? b + ((d4 - d3) / s) * (c - b) : b;
     }
+    // The shares are differences of large numbers when the triangle is slender: they are off by a spacing along one
+    // that is 600 times as long as wide. The way to its plane is not.
+    constexpr float kSlender = 1e-3f; // squared sine of the angle at a
+    if (va + vb + vc < kSlender * dot(ab, ab) * dot(ac, ac)) {
+        Vec3 n = cross(ab, ac);
+        float n2 = dot(n, n);
+        if (n2 > 0) return p - (dot(n, ap) / n2) * n;
+    }
     float s = 1 / (va + vb + vc);
     return a + (vb * s) * ab + (vc * s) * ac;
 }

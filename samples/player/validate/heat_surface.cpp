@@ -55,9 +55,12 @@ void area(Findings& found) {
         row("candle with drips, at " + std::to_string(spacing).substr(0, 6) + " m", scene::makeCandle(), spacing);
     for (const float spacing : {0.002f, 0.0015f, 0.0012f})
         row("hare, at " + std::to_string(spacing).substr(0, 6) + " m", makeHare(), spacing);
-    for (const float layers : {0.5f, 0.8f, 2.0f})
+    for (const float layers : {0.5f, 0.8f, 1.0f, 2.0f})
         row("sheet of " + std::to_string(layers).substr(0, 3) + " layers",
             scene::makeBox({0.06f, layers * 0.002f, 0.06f}), 0.002f);
+    for (const float length : {150.0f, 400.0f})
+        row("bar of 6 x 6, length " + std::to_string(static_cast<int>(length)) + " spacings",
+            scene::makeBox({length * 0.002f, 0.012f, 0.012f}), 0.002f);
     row("torus, tube of radius 5 spacings", scene::makeTorus(0.03f, 0.01f), 0.002f);
 }
 
