@@ -356,7 +356,7 @@ typedef struct thawColliderDef {
     bool occluder;      /* shades heat sources; default true */
     float slipLength;   /* m, Navier slip of liquids: their speed would be the wall's so far behind it; range 0..1e4,
                            default 0 (sticks), 1e4 slides freely */
-    float friction;     /* 1, Coulomb coefficient for solid pieces; range 0..10, default 0.5 */
+    float friction;     /* 1, Coulomb coefficient for what is solid; range 0..10, default 0.5 */
     bool reportImpulse; /* measure what acts on it, for thawCollider_GetImpulse; default false */
     float temperature;  /* K, heats and cools what touches it; range 0..1e5; NaN, the default: exchanges no heat */
     float contactConductance; /* W/(m^2 K), of the contact, in series with the melt's own conduction; range 0..infinity,

@@ -18,17 +18,17 @@ constexpr float kLeastFill = 0.3f;
 } // namespace
 
 Bonds::Bonds(Allocator& a)
-    : stiffness(a), rest(a), groupOn(a), bonds_(a), count_(a), calm_(a), pressed_(a), borne_(a), fill_(a), fillGoal_(a),
-      rowOf_(a), free_(a), state_(a), strain_(a), touched_(a), colliderBounds_(a) {}
+    : stiffness(a), rest(a), groupOn(a), bonds_(a), count_(a), calm_(a), pressed_(a), borne_(a), rubbed_(a), fill_(a),
+      fillGoal_(a), rowOf_(a), free_(a), state_(a), strain_(a), touched_(a), queue_(a), colliderBounds_(a) {}
 
 void Bonds::reserve(int particles) {
     const size_t n = static_cast<size_t>(particles) + 1;
     if (rowOf_.size() >= n) return;
     bonds_.resizeRaw(n * kMost);
     count_.assign(n, 0), calm_.assign(n, 0), pressed_.assign(n, 0), touched_.assign(n, 0);
-    borne_.assign(n, {}), fill_.assign(n, 0), fillGoal_.assign(n, 0), rowOf_.assign(n, kNoRow);
+    borne_.assign(n, {}), rubbed_.assign(n, 0), fill_.assign(n, 0), fillGoal_.assign(n, 0), rowOf_.assign(n, kNoRow);
     state_.resizeRaw(n), strain_.resizeRaw(n);
-    free_.reserve(n);
+    free_.reserve(n), queue_.reserve(n);
     for (size_t s = n - 1; s > 0; --s) free_.push(static_cast<uint32_t>(s));
 }
 
@@ -51,7 +51,7 @@ uint32_t Bonds::take(Particles& p, uint32_t row) {
     free_.resizeRaw(free_.size() - 1);
     ++live_;
     count_[slot] = pressed_[slot] = 0, calm_[slot] = kNewborn, fill_[slot] = fillGoal_[slot] = 0;
-    borne_[slot] = {}, rowOf_[slot] = row, p.bondSlot[row] = slot;
+    borne_[slot] = {}, rubbed_[slot] = 0, rowOf_[slot] = row, p.bondSlot[row] = slot;
     return slot;
 }
 
@@ -131,6 +131,7 @@ uint64_t Bonds::hash(uint64_t h) const {
         h = hashCombine(h, s | static_cast<uint64_t>(calm_[s]) << 32 | static_cast<uint64_t>(pressed_[s]) << 40);
         if (const Vec3 b = borne_[s]; dot(b, b) > 0)
             h = hashCombine(hashCombine(h, bits(b.x) | static_cast<uint64_t>(bits(b.y)) << 32), bits(b.z));
+        if (pressed_[s]) h = hashCombine(h, bits(rubbed_[s]));
         h = hashCombine(h, bits(fill_[s]) | static_cast<uint64_t>(bits(fillGoal_[s])) << 32);
         for (int k = 0; k < count_[s]; ++k) {
             const Bond& b = bondsOf(s)[k];

@@ -56,6 +56,9 @@ public:
     // flags; rows take their new places at the next sort. Memory for all particles is taken when the first bond is
     // made.
     BondResult update(const BondFrame& f);
+    // Before a step, with the colliders on their way: wakes what sleeps and will be touched by one in this step or the
+    // next. How many rows; they take their new places at the next sort.
+    int wakeBefore(const BondFrame& f);
     // Bonds everything of these soft materials that is solid and has no bond yet, wherever it is and however it moves.
     BondResult bondAll(const BondFrame& f);
     // How many sub-steps of a step of dt bodies that fall on each other, or rigid pieces and such bodies, ask for, at
@@ -83,8 +86,11 @@ public:
     // What a rigid piece gives a particle, N, by slot; until the next lay() while it moves.
     void bear(uint32_t slot, Vec3 force) { borne_[slot] = force; }
 
-    // Whether a particle was pressed against a wall in the last solve, by slot.
+    // How a wall held a particle in the last solve, and how hard the walls pushed it times their friction, m/s^2; by
+    // slot.
+    enum Pressed : uint8_t { kFree, kSticks, kSlips };
     uint8_t& pressed(uint32_t slot) { return pressed_[slot]; }
+    float& rubbed(uint32_t slot) { return rubbed_[slot]; }
 
 private:
     struct Bond {
@@ -125,6 +131,9 @@ private:
     float rounding(const BondFrame& f, uint32_t row) const;
     Box hittingPieces(const BondFrame& f) const;
     bool touchedByPiece(const BondFrame& f, uint32_t row) const;
+    template <class F> void forTouching(const BondFrame& f, bool asleep, F&& body) const;
+    void wakePieces(const BondFrame& f);
+    void wake(Particles& p, uint32_t row);
     void settlePieces(const BondFrame& f);
     void settle(const BondFrame& f, BondResult& result);
     void weld(const BondFrame& f);
@@ -140,12 +149,14 @@ private:
     Array<Bond> bonds_; // kMost per slot; slot 0 is nobody's
     Array<uint8_t> count_, calm_, pressed_;
     Array<Vec3> borne_;            // N, by rigid pieces
+    Array<float> rubbed_;          // m/s^2, as far as walls rub at most
     Array<float> fill_, fillGoal_; // sum of weight rest^2 / (12 V), 1/m; what it goes to
     Array<uint32_t> rowOf_;        // kNoRow: free
     Array<uint32_t> free_;         // stack
     Array<uint8_t> state_;         // per row
     Array<Strain> strain_;         // per row
     Array<uint8_t> touched_;       // per slot: its bonds changed in number or weight
+    Array<uint32_t> queue_;        // rows, of wakeBefore
     Array<Box> colliderBounds_;
 };
 

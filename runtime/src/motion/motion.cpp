@@ -35,7 +35,8 @@ Motion::Motion(Allocator& a)
       mirror_(a), mirrorChange_(a), wallVelocity_(a), wallPush_(a), heldVelocity_(a), kick_(a), heldKick_(a),
       reportSlot_(a), reports_(a), held_(a), landing_(a), landingOn_(a), wallGradient_(a), trait_(a), ownViscosity_(a),
       point_(a), coefficient_(a), wallDrag_(a), inverse_(a), cross_(a), before_(a), residual_(a), direction_(a),
-      image_(a), grip_(a), target_(a), piece_(a), queue_(a), pieceEnd_(a), sums_(a) {}
+      image_(a), grip_(a), slide_(a), bodies_(a), bodyRow_(a), bodyOf_(a), block_(a), unslid_(a), target_(a), piece_(a),
+      queue_(a), pieceEnd_(a), sums_(a) {}
 
 void Motion::begin(const MotionFrame& f) {
     stats_ = {};
@@ -80,7 +81,11 @@ void Motion::begin(const MotionFrame& f) {
 
     // Rows that do not move: what their neighbours read of them. A particle that has just set still carries some
     // pressure, which fades (taken away at once, its neighbours would fall freely for a frame).
-    if (bonded_) grip_.assign(movers, {});
+    if (bonded_) {
+        grip_.assign(movers, {});
+        slide_.resizeRaw(movers), bodyRow_.resizeRaw(movers), bodyOf_.resizeRaw(movers), block_.resizeRaw(2 * movers),
+            unslid_.resizeRaw(2 * movers);
+    }
     findUnlike(f);
     severalMaterials_ = false;
     forMaterials(p, p.moverCount, [&](uint8_t m) { severalMaterials_ |= m != p.material[0]; });

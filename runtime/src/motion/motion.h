@@ -118,6 +118,21 @@ private:
     bool regrip(const MotionFrame& f);
     void reportGrip(const MotionFrame& f);
     bool gripped(size_t i) const { return bonded_ && grip_[i].w > 0; }
+    bool slides(size_t i) const { return bonded_ && grip_[i].w >= kSlides; }
+    // Of a velocity or impulse, what the walls that grip a mover leave free, friction aside.
+    Vec3 freeOf(size_t i, Vec3 v) const {
+        if (!slides(i)) return {};
+        const Slide& s = slide_[i];
+        const Vec3 along = dot(s.axis, v) * s.axis;
+        return s.edge ? along : v - along;
+    }
+    // The velocity nearest to v that the walls that grip it allow.
+    Vec3 heldTo(size_t i, Vec3 v) const { return grip_[i].xyz() + freeOf(i, v - grip_[i].xyz()); }
+    void setSlide(size_t i);
+    void leaveGripped(const MotionFrame& f);
+    void findBodies(const MotionFrame& f);
+    void weighBodies(const MotionFrame& f);
+    bool moveAsOne(const MotionFrame& f);
     void thicken(const MotionFrame& f);
 
     struct WallShear {
@@ -176,9 +191,36 @@ private:
     Array<Vec4> inverse_, cross_; // per mover: xx yy zz and xy xz yz of its inverted viscous block, 1/kg
     Array<Vec4> before_, residual_, direction_, image_;
     // Elastic solids: whether there are any; per mover, what a wall that it is pressed against makes of its velocity in
-    // the viscous solve; w: bits of the contacts that do, 0: none.
+    // the viscous solve; w: bits of the contacts that do, 0: none, and kSlides when it slides along them.
     bool bonded_ = false;
+    static constexpr int kSlides = 1 << kContacts;
     Array<Vec4> grip_;
+    struct Slide {
+        Vec3 axis; // of the edge that two walls leave free, else the normal of the one wall
+        bool edge;
+        float drag; // kg, friction of this sub-step over the velocity along the wall of the round before
+    };
+    Array<Slide> slide_; // per mover; of those that slide
+    // What of elastic solids hangs together or touches, for friction.
+    struct Body {
+        size_t end;                 // of its rows in bodyRow_
+        bool held;                  // against something that does not move by the solve
+        bool flat;                  // on walls of one normal alone
+        Vec3 normal;                // of those
+        double mass;                // kg
+        double taken[3], pushed[3]; // kg m/s, what it got of everything outside of it; what walls seem to have pushed
+        double rubbed;              // kg m/s, as far as walls rub at what they seem to push
+        // Of what walls seem to push along n, how much is true: stiff solids that the iterations did not bring to rest
+        // press some of their particles on the wall far too hard and pull at others. What comes of it for the whole
+        // body is right.
+        float believed(Vec3 n) const;
+        // m/s that the walls lack to hold it along them, < 0 when they hold it. When flat and not held.
+        float slip() const;
+    };
+    Array<Body> bodies_;
+    Array<uint32_t> bodyRow_, bodyOf_; // bodyOf_: per mover, index + 1
+    Array<Vec4> block_;  // two per mover: xx yy zz, xy xz yz of its viscous block, kg; when elastic and near walls
+    Array<Vec4> unslid_; // two per mover that slides: inverse_ and cross_ of all directions
     // Per row: first the velocity at the start of the sub-step, then the position at its end before particles are moved
     // apart.
     Array<Vec4> target_;

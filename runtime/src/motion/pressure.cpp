@@ -47,7 +47,7 @@ void Motion::pressure(const MotionFrame& f) {
                 const size_t i = static_cast<size_t>(r);
                 if (unlike_) p.velocity[i].setXyz(p.velocity[i].xyz() + pushMirrors(f, i, point_.data()));
                 if (gripped(i))
-                    p.velocity[i].setXyz(grip_[i].xyz());
+                    p.velocity[i].setXyz(heldTo(i, p.velocity[i].xyz()));
                 else if (touches(i))
                     holdAtWalls(f, i);
             }

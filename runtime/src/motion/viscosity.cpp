@@ -81,8 +81,11 @@ void Motion::applyViscosity(const MotionFrame& f, const Vec4* velocity, int begi
             image_[i].setXyz(image_[i].xyz() + c->drag(f.dt, velocity[i].xyz() - velocity[c->row].xyz()));
     }
     if (!walls) return;
-    for (int r = 8 * begin; r < last; ++r)
-        if (grip_[static_cast<size_t>(r)].w > 0) image_[static_cast<size_t>(r)] = {};
+    for (int r = 8 * begin; r < last; ++r) {
+        const size_t i = static_cast<size_t>(r);
+        if (!gripped(i)) continue;
+        image_[i].setXyz(slides(i) ? freeOf(i, image_[i].xyz() + slide_[i].drag * velocity[i].xyz()) : Vec3{});
+    }
 }
 
 // What a yield stress adds to the viscosity of the next step in Pa s, from the shear rate that this solve ended with.
@@ -163,7 +166,8 @@ void Motion::viscosity(const MotionFrame& f) {
                 Vec4 a, b;
                 Vec3 push;
                 const size_t first = i * kContacts;
-                for (size_t c = first, n = landing_[i].w < 0 ? first : first + contactCount_[i]; c < n; ++c) {
+                for (size_t c = first, n = landing_[i].w < 0 || p.bondSlot[i] ? first : first + contactCount_[i]; c < n;
+                     ++c) { // elastic solids have friction instead
                     const Vec4 k = contact_[c];
                     if (k.w >= h) continue;
                     const WallShear w = wallShear(f, i, c);
@@ -182,6 +186,7 @@ void Motion::viscosity(const MotionFrame& f) {
                     diagonal.setXyz(diagonal.xyz() + Vec3{x.x, y.y, z.z});
                     cross.setXyz(cross.xyz() + Vec3{x.y, x.z, y.z});
                 }
+            if (bonded_ && contactCount_[i]) block_[2 * i] = diagonal, block_[2 * i + 1] = cross;
             invert(diagonal, cross);
             inverse_[i] = diagonal, cross_[i] = cross;
             before_[i] = p.velocity[i];
@@ -231,13 +236,15 @@ void Motion::viscosity(const MotionFrame& f) {
         const bool touches = pieces && pieces->decideSoft(f);
         findResidual();
         if (bonded_) {
+            if (round == 0)
+                findBodies(f);
+            else
+                weighBodies(f);
             const bool changed = regrip(f);
             if (round > 0 && !changed && !touches) break;
             if (changed) findResidual();
-            forMovers([&](int begin, int, int last, BlockSums&) {
-                for (int r = 8 * begin; r < last; ++r)
-                    if (grip_[static_cast<size_t>(r)].w > 0) residual_[static_cast<size_t>(r)] = {};
-            });
+            leaveGripped(f);
+            if (moveAsOne(f)) findResidual(), leaveGripped(f);
         }
         forMovers([&](int begin, int, int last, BlockSums& sums) {
             for (int r = 8 * begin; r < last; ++r) {
@@ -264,7 +271,7 @@ void Motion::viscosity(const MotionFrame& f) {
             forMovers([&](int begin, int, int last, BlockSums&) {
                 for (int r = 8 * begin; r < last; ++r) {
                     const size_t i = static_cast<size_t>(r);
-                    const Vec3 way = gripped(i) ? Vec3{} : target_[i].xyz() - p.velocity[i].xyz();
+                    const Vec3 back = target_[i].xyz() - p.velocity[i].xyz(), way = gripped(i) ? freeOf(i, back) : back;
                     direction_[i] = {way.x, way.y, way.z, 0};
                 }
             });
@@ -335,7 +342,7 @@ void Motion::viscosity(const MotionFrame& f) {
         forMovers([&](int begin, int, int last, BlockSums&) {
             for (int r = 8 * begin; r < last; ++r) {
                 const size_t i = static_cast<size_t>(r);
-                if (landing_[i].w < 0) continue;
+                if (landing_[i].w < 0 || p.bondSlot[i]) continue;
                 for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c) {
                     if (contact_[c].w >= p.position[i].w) continue;
                     const Vec3 wall = wallsMove_ ? wallVelocity_[c].xyz() : Vec3{};

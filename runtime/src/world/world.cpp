@@ -66,6 +66,8 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     uint32_t status = thawStep_ok;
     if (anchorsFresh_) findAnchors();
     if (toldApart_) startColliders(dt, 0, 1);
+    if (const int woken = toldApart_ && anySoft() ? bonds_.wakeBefore(bondFrame(dt)) : 0)
+        counters_.moving += woken, counters_.fixed -= woken, listsStale_ = holdStale_ = true;
     const int wanted = std::max(subStepsWanted(dt), static_cast<int>(budget.work.leastSubSteps));
     // What this frame runs: the host's work units, or the governor's choice within a budget of milliseconds.
     thawWork work = budget.work;

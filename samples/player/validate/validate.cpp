@@ -26,7 +26,7 @@ std::vector<Suite> suites() {
         {"motion",
          "liquids, solids and colliders at one step per frame",
          {liquidCases(), filmCases(), impactCases(), colliderCases(), materialCases(), softCases(), softContactCases(),
-          rigidCases(), pieceCases()}},
+          softFrictionCases(), rigidCases(), pieceCases()}},
         {"heat",
          "conduction, contact, phase change, radiation and loss",
          {conductionCases(), stefanCases(), radiationCases(), surfaceCases(), heatLevelCases(), undercoolingCases()}}};

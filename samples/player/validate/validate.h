@@ -47,6 +47,7 @@ CaseList impactCases();
 CaseList filmCases();
 CaseList softCases();
 CaseList softContactCases();
+CaseList softFrictionCases();
 CaseList rigidCases();
 CaseList pieceCases();
 CaseList conductionCases();
