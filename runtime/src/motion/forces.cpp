@@ -45,6 +45,11 @@ void Motion::forces(const MotionFrame& f) {
                 v -= (pull * fade * f.dt) * k.xyz();
                 kick(c, -(pull * fade * f.dt) * k.xyz());
             }
+            if (held_[i].w < INFINITY && pull > 0) {
+                const Vec3 change = heldPull(f, i, pull, down);
+                v += change;
+                if (reporting_) heldKick_[i].setXyz(heldKick_[i].xyz() + change);
+            }
             // The viscous solve of what is bonded starts from the velocity of the last step: from where springs and
             // gravity send it, it blows up within three frames (BAKEOFF 4).
             if (bonded_ && p.bondSlot[i]) p.velocityChange[i].setXyz(p.velocity[i].xyz() - v);

@@ -13,8 +13,9 @@
 namespace thaw {
 namespace {
 
-// What sets lies against something: a neighbour of the lattice, or a wall that it stands half a spacing off.
-constexpr float kTouch = 1.25f, kWallTouch = 0.8f;
+// What sets lies against something: as far as the middle of four of a lattice from them (1.22) and a tenth more, or a
+// wall that it stands half a spacing off.
+constexpr float kTouch = 1.35f, kWallTouch = 0.8f;
 // What has come to rest sets from farther away: as stiff as it is by then, the drag of wall and neighbours stops it
 // short.
 constexpr float kRestTouch = 1.75f, kRestWallTouch = 1.5f;

@@ -78,6 +78,7 @@ void Motion::begin(const MotionFrame& f) {
     if (wallsMove_) wallVelocity_.resizeRaw(movers * kContacts), wallPush_.resizeRaw(movers);
     heldMoves_ = f.heldSpeed > 0;
     if (heldMoves_) heldVelocity_.resizeRaw(movers);
+    otherHeld_ = bonded_ || (f.rigid && f.rigid->any());
 
     // Rows that do not move: what their neighbours read of them. A particle that has just set still carries some
     // pressure, which fades (taken away at once, its neighbours would fall freely for a frame).
@@ -97,7 +98,8 @@ void Motion::begin(const MotionFrame& f) {
             const Vec3 x = p.position[i].xyz();
             const bool real = p.moverCount + r < p.count;
             const bool coheres = real && !p.bondSlot[i];
-            trait_[i] = {-1, coheres ? f.materials[p.material[i]].def.cohesion * (0.1f * kGravity) : 0.0f,
+            const float drag = real && mirrors(f, i) ? kHeldDrag : 1;
+            trait_[i] = {-drag, coheres ? f.materials[p.material[i]].def.cohesion * (0.1f * kGravity) : 0.0f,
                          p.velocity[i].w, p.pressure[i]};
             if (!heldMoves_ && !p.piece[i]) p.velocity[i].setXyz({});
             point_[i] = {x.x, x.y, x.z, 0};
@@ -147,10 +149,12 @@ void Motion::begin(const MotionFrame& f) {
 
             const int n = contactCount_[i];
             piece_[i] = held_[i].w > 0 || (n && contact_[i * kContacts].w < h) ? kLeaning : kUnknown;
-            held_[i] = heldSurface(held_[i], h);
+            const Vec4 fixed = held_[i];
+            held_[i] = heldSurface(fixed, h);
             float solid = 0;
             Vec3 gradient;
             if (n) weighWalls(f, i, solid, gradient);
+            if (fixed.w > 0) gradient += heldMirror(f, i, fixed.xyz());
             const float error = f.neighbors.volumeFraction[i] + solid - 1;
             float& blend = p.blend[i];
             if (blend != 0) blend = settled(blend, error, f.dt);

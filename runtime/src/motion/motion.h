@@ -87,6 +87,11 @@ private:
     void land(const MotionFrame& f);
     void findWalls(const MotionFrame& f, int begin, int end, int block);
     void weighWalls(const MotionFrame& f, size_t i, float& fraction, Vec3& gradient);
+    bool mirrors(const MotionFrame& f, size_t held) const;
+    Vec3 heldMirror(const MotionFrame& f, size_t i, Vec3 all) const;
+    template <class F> void forHeldNeighbors(const MotionFrame& f, size_t i, F&& body) const;
+    float broughtByHeld(const MotionFrame& f, size_t i) const;
+    Vec3 heldPull(const MotionFrame& f, size_t i, float pull, Vec3 down) const;
     void findUnlike(const MotionFrame& f);
     template <class F> void forMirrors(const MotionFrame& f, size_t i, F&& body) const;
     template <class F> void forMirrorPush(const MotionFrame& f, size_t i, F&& body) const;
@@ -150,7 +155,8 @@ private:
     MotionStats stats_;
     size_t reporters_ = 0; // colliders that report
     bool wallsMove_ = false, reporting_ = false, thinWalls_ = false, heldMoves_ = false, slippery_ = false;
-    bool unlike_ = false; // liquids of different densities move
+    bool unlike_ = false;    // liquids of different densities move
+    bool otherHeld_ = false; // not all that is fixed is still or carried along (see mirrors)
     Array<Box> colliderBounds_;
     Array<Vec4> contact_;            // kContacts per mover: xyz outward normal, w distance in m; nearest first
     Array<uint8_t> contactAdhesive_; // per contact
@@ -176,8 +182,8 @@ private:
                           // < 0: its piece is landing
     Array<uint16_t> landingOn_; // per mover: the collider of that wall
     Array<Vec4> wallGradient_;  // per mover: xyz gradient of the wall's volume fraction in 1/m, w C = density error
-    Array<Vec4>
-        trait_; // per row: x viscosity in Pa s (< 0: fixed), y cohesion in m/s^2, z mass in kg, w pressure in Pa
+    Array<Vec4> trait_; // per row: x viscosity in Pa s (< 0: fixed, minus how often its pairs count), y cohesion in
+                        // m/s^2, z mass in kg, w pressure in Pa
     // Per row: of that viscosity the material's, start in stiffness and yield included; the rest is the solver's; when
     // several materials move. Where layers meet there is one stress, so their viscosities are in series: with the
     // arithmetic mean a film of 10 Pa s on one of 100 / 1000 ran 20 / 28 % slow, 8 / 7 % with theirs in series (10 % on

@@ -54,4 +54,8 @@ inline float apparentFloor(float density, float spacing, float stepTime, float s
     return kFloor * density * spacing * spacing / stepTime * std::min(1.0f, moved / kMoving);
 }
 
+// Viscous pairs with what is held count so often: it mirrors the velocity (held.cpp). Of a linear shear between layers
+// of a lattice, pairs with rows that stand still carry half, whatever the kernel.
+inline constexpr float kHeldDrag = 2;
+
 } // namespace thaw

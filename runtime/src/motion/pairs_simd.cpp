@@ -42,7 +42,7 @@ template <bool kCohesive, bool kSeries> HWY_INLINE void forceRows(const ForcePas
         px = hn::MulAdd(pressure, x, px), py = hn::MulAdd(pressure, y, py), pz = hn::MulAdd(pressure, z, pz);
 
         // Weiler et al. 2018, projected form; the mean of the two viscosities keeps it symmetric.
-        F32 mu = hn::IfThenElse(fixed, ti.x, hn::Mul(half, hn::Add(ti.x, tj.x)));
+        F32 mu = hn::IfThenElse(fixed, hn::Neg(hn::Mul(ti.x, tj.x)), hn::Mul(half, hn::Add(ti.x, tj.x)));
         if (kSeries) {
             const F32 oj = gather(p.own, s.entry + 8 * k), both = hn::Max(hn::Add(oi, oj), all(1e-30f));
             const F32 apart = hn::Sub(oi, oj), less = hn::Div(hn::Mul(apart, apart), both);

@@ -16,8 +16,8 @@ void Motion::meetMovingWalls(const MotionFrame& f) {
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
         for (int r = 8 * begin, last = std::min(8 * end, f.particles.moverCount); r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
-            float brought = 0;
-            for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c)
+            float brought = heldMoves_ ? broughtByHeld(f, i) : 0;
+            for (size_t c = i * kContacts, n = c + contactCount_[i]; wallsMove_ && c < n; ++c)
                 brought -= f.dt * contactSlope_[c] * dot(contact_[c].xyz(), wallVelocity_[c].xyz());
             if (brought == 0) continue;
             float& error = wallGradient_[i].w;
@@ -32,7 +32,7 @@ void Motion::pressure(const MotionFrame& f) {
     if (p.moverCount == 0) return;
     const PairLists lists(f.neighbors);
     const float feedback = densityFeedback(f.subSteps), weight = jacobiWeight(f.subSteps) / (f.dt * f.dt);
-    if (wallsMove_) meetMovingWalls(f);
+    if (wallsMove_ || heldMoves_) meetMovingWalls(f);
     for (int iteration = 0; iteration < f.pressureIterations; ++iteration) {
         f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
             if (unlike_) moveMirrors(f, begin, end);

@@ -69,7 +69,8 @@ void Motion::reportHeldDrag(const MotionFrame& f) {
 void Motion::reportHeldPush(const MotionFrame& f) {
     const Particles& p = f.particles;
     forHeldPairs(f, [&](size_t i, size_t j, size_t entry, Vec3 x) {
-        float push = -f.dt * f.invDensity[i] * (p.pressure[i] + trait_[j].w) * f.neighbors.gradient[entry];
+        const float mirrored = p.bondSlot[i] || !mirrors(f, j) ? 0 : p.pressure[i];
+        float push = -f.dt * f.invDensity[i] * (p.pressure[i] + mirrored + trait_[j].w) * f.neighbors.gradient[entry];
         const float h = 0.5f * (p.position[i].w + p.position[j].w), r = length(x), d = h / kSupport;
         if (r > d && r < h) {
             push -= f.dt * 0.5f * kCohesionPeak * (r - d) * (h - r) * (trait_[i].y + trait_[j].y) / (h * h * r);

@@ -11,8 +11,6 @@
 namespace thaw::player {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // What a time scale of 1, 100 and 5000 is good for: heat of a step in units of spacing^2 / diffusivity. The largest is
 // seventy times what an explicit step could take.
 struct Scale {

@@ -17,7 +17,6 @@
 namespace thaw::player {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSigma = 5.670374419e-8; // W/(m^2 K^4)
 constexpr double kAmbient = 300;          // K
 constexpr float kSpacing = 0.005f;

@@ -12,8 +12,6 @@
 namespace thaw::player {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 struct Problem {
     const char* name;
     Melting material;  // densities do not matter: time goes with them

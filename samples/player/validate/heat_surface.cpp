@@ -12,7 +12,7 @@
 namespace thaw::player {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846, kStefanBoltzmann = 5.670374419e-8;
+constexpr double kStefanBoltzmann = 5.670374419e-8;
 
 double massOf(const Lab& lab) {
     const thawParticleView p = lab.particles();

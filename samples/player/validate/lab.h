@@ -10,6 +10,8 @@
 
 namespace thaw::player {
 
+inline constexpr double kG = 9.81, kPi = 3.14159265358979323846;
+
 // A refused call: the case cannot be run.
 struct LabError : std::runtime_error {
     using std::runtime_error::runtime_error;
@@ -48,7 +50,7 @@ public:
 
     thawParticleView particles() const;
     thawCounters counters() const;
-    double height() const;     // m, of the topmost particle's centre plus half a spacing
+    double height() const; // m, of the topmost particle's centre plus half a spacing
     thawWorld* world() const { return world_; }
     float spacing() const { return spacing_; }
     thawBudget budget; // what step() passes

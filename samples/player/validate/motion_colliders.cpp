@@ -13,7 +13,7 @@
 namespace thaw::player {
 namespace {
 
-constexpr double kStep = 1.0 / 60, kPi = 3.14159265358979;
+constexpr double kStep = 1.0 / 60;
 
 struct Place {
     thawVec3 position{0, 0, 0};

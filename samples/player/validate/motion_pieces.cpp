@@ -11,8 +11,6 @@
 namespace thaw::player {
 namespace {
 
-constexpr double kG = 9.81;
-
 std::vector<thawPieceState> piecesOf(const Lab& lab) {
     std::vector<thawPieceState> all(static_cast<size_t>(thawWorld_GetPieces(lab.world(), nullptr, 0)));
     thawWorld_GetPieces(lab.world(), all.data(), static_cast<int32_t>(all.size()));

@@ -10,7 +10,7 @@
 namespace thaw::player {
 namespace {
 
-constexpr double kG = 9.81, kDt = 1.0 / 60;
+constexpr double kDt = 1.0 / 60;
 
 void loose(thawBodyDef& d) { d.anchored = false; }
 

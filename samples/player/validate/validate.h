@@ -45,6 +45,7 @@ CaseList colliderCases();
 CaseList materialCases();
 CaseList impactCases();
 CaseList filmCases();
+CaseList heldCases();
 CaseList softCases();
 CaseList softContactCases();
 CaseList softFrictionCases();
