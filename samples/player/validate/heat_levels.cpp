@@ -12,8 +12,6 @@
 namespace thaw::player {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 void keepLevels(Lab& lab, int level) { lab.budget.work.finestLevel = lab.budget.work.coarsestLevel = level; }
 
 // Of the mass, the share in particles of that level.
