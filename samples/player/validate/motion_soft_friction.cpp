@@ -10,8 +10,6 @@
 namespace thaw::player {
 namespace {
 
-constexpr double kG = 9.81;
-
 thawMaterialDef soft(float modulus) {
     thawMaterialDef m = Lab::plain(1000, 1);
     m.viscositySolid = 10, m.youngModulus = modulus;
