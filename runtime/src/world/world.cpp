@@ -868,7 +868,7 @@ uint64_t World::stateHash() const {
             h = hashCombine(h, w);
         }
         uint64_t w = 0;
-        std::memcpy(&w, p, size);
+        if (size > 0) std::memcpy(&w, p, size);
         h = hashCombine(h, w ^ size);
     };
     const size_t n = static_cast<size_t>(particles.count);
