@@ -65,7 +65,7 @@ typedef enum thawStepStatus {
     thawStep_badParticlesRemoved = 1 << 5, /* some particle became not finite and was taken out; see the ledger */
     thawStep_raysReduced = 1 << 6,         /* only part of the visibility rays was refreshed */
     thawStep_overBudget = 1 << 7,          /* the step took longer than its budget in milliseconds */
-    thawStep_splitsClipped = 1 << 8        /* some particles stayed coarser than they should be: maxParticles, or splits */
+    thawStep_splitsClipped = 1 << 8 /* some particles stayed coarser than they should be: maxParticles, or splits */
 } thawStepStatus;
 
 /* THAW_VERSION of the library that runs; differs from the macro when headers and library differ. */
@@ -592,7 +592,7 @@ typedef struct thawCounters {
     int32_t bodies, colliders, heatSources, materials;
     int32_t subSteps, pressureIterations, viscosityIterations; /* of the last step; iterations summed over sub-steps */
     int32_t rays, neighborsMax;
-    int32_t levels[4];     /* particles by level */
+    int32_t levels[4];      /* particles by level */
     int32_t splits, merges; /* particles that came and went by them in the last step */
     float neighborsMean;
     float maxSpeed;          /* m/s */
