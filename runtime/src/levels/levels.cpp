@@ -109,9 +109,7 @@ void Levels::splitRow(const LevelFrame& f, size_t i, int to) {
     for (int part = parts - 1; part >= 0; --part) {
         const size_t k = part == 0 ? i : static_cast<size_t>(p.count++);
         if (part > 0) {
-#define X(type, name) p.name[k] = p.name[i];
-            THAW_PARTICLE_FIELDS(X)
-#undef X
+            p.copyRow(k, i);
             p.id[k] = f.nextId++;
         }
         const uint32_t first = begin + (static_cast<uint32_t>(part) << to);
@@ -145,11 +143,7 @@ LevelResult Levels::apply(const LevelFrame& f) {
         const size_t all = static_cast<size_t>(p.count);
         for (size_t k = 0; k < all; ++k) {
             if (k < gone_.size() && gone_[k]) continue;
-            if (kept != k) {
-#define X(type, name) p.name[kept] = p.name[k];
-                THAW_PARTICLE_FIELDS(X)
-#undef X
-            }
+            if (kept != k) p.copyRow(kept, k);
             ++kept;
         }
         p.count = static_cast<int>(kept);

@@ -35,9 +35,8 @@ struct LevelResult {
 
 // How coarse solids are. Untouched solid is coarse; it splits to the finest particles of its reference before anything
 // happens to it, and merges back when nothing did:
-//  - within two spacings of what flows, of what was melted and set again, and of other bodies it is fine, and coarser
-//  by
-//    a level for about a spacing and a half more each (kBand);
+//  - within two spacings of what flows, of what was melted and set again, and of other bodies it is fine, and a level
+//    coarser for about a spacing and a half more each (kBand);
 //  - where temperature changes within a particle by a share of what it lacks to melt, it is as fine as that asks for.
 // Liquid is fine at its surface, at walls, at solids and other liquids, and coarser with the same bands below, in
 // bodies that may be coarse. It splits in two where there is most room and merges with its nearest of the same kind, a

@@ -82,9 +82,7 @@ void Levels::splitLiquid(const LevelFrame& f, size_t i) {
     const size_t to = static_cast<size_t>(p.count++);
     p.velocity[i].w *= 0.5f;
     p.level[i] = static_cast<uint8_t>(level), p.stiffness[i] = 0, p.normal[i] = {}, p.rayAge[i] = 0;
-#define X(type, name) p.name[to] = p.name[i];
-    THAW_PARTICLE_FIELDS(X)
-#undef X
+    p.copyRow(to, i);
     p.id[to] = f.nextId++;
     const Vec3 left = x - offset * best, right = x + offset * best;
     p.position[i] = {left.x, left.y, left.z, h}, p.position[to] = {right.x, right.y, right.z, h};

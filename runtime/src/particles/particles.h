@@ -91,13 +91,21 @@ struct Particles {
 #undef X
         pad();
     }
+    void copyRow(size_t to, size_t from) {
+#define X(type, name) name[to] = name[from];
+        THAW_PARTICLE_FIELDS(X)
+#undef X
+    }
+    void clearRow(size_t row) {
+#define X(type, name) name[row] = type{};
+        THAW_PARTICLE_FIELDS(X)
+#undef X
+    }
     // Writes the dummies after the last row.
     void pad() {
         for (int i = count; i < count + kPadding; ++i) {
             size_t k = static_cast<size_t>(i);
-#define X(type, name) name[k] = type{};
-            THAW_PARTICLE_FIELDS(X)
-#undef X
+            clearRow(k);
             position[k] = {kFar, kFar, kFar, 0};
             flags[k] = kFixed;
         }

@@ -12,6 +12,16 @@ float strength(const thawBrush& b, Vec3 x) {
     return off <= 1 - b.falloff ? 1.0f : (1 - off) / b.falloff;
 }
 
+// Calls f(row, share) for the rows of a body under the brush; returns how many.
+template <class F> int forPainted(const Particles& p, uint32_t body, const thawBrush& brush, F&& f) {
+    int painted = 0;
+    for (size_t k = 0; k < static_cast<size_t>(p.count); ++k) {
+        const float share = p.body[k] == body ? strength(brush, p.position[k].xyz()) : 0.0f;
+        if (share > 0) ++painted, f(k, share);
+    }
+    return painted;
+}
+
 } // namespace
 
 // Coarse particles would be painted whole. Those for whose parts there is no room are.
@@ -33,13 +43,8 @@ void World::splitUnder(uint32_t body, const thawBrush& brush) {
 }
 
 int World::paintTemperature(uint32_t body, const thawBrush& brush, float temperature) {
-    int painted = 0;
     splitUnder(body, brush);
-    for (int i = 0; i < particles.count; ++i) {
-        const size_t k = static_cast<size_t>(i);
-        const float share = particles.body[k] == body ? strength(brush, particles.position[k].xyz()) : 0.0f;
-        if (!(share > 0)) continue;
-        ++painted;
+    const int painted = forPainted(particles, body, brush, [&](size_t k, float share) {
         const Material& m = materials[particles.material[k]];
         const float was = particles.temperature[k],
                     kelvin = share < 1 ? was + share * (temperature - was) : temperature;
@@ -49,23 +54,18 @@ int World::paintTemperature(uint32_t body, const thawBrush& brush, float tempera
         particles.temperature[k] = m.temperature(H), particles.liquidFraction[k] = m.liquidFraction(H);
         const bool unseeded = m.def.undercooling > 0 && H >= m.latent;
         particles.flags[k] = static_cast<uint8_t>((particles.flags[k] & ~kUnseeded) | (unseeded ? kUnseeded : 0));
-    }
+    });
     // The next step looks who lets go, sets and burns.
     if (painted > 0) listsStale_ = holdStale_ = true, measure();
     return painted;
 }
 
 int World::paintAbsorptivity(uint32_t body, const thawBrush& brush, float value) {
-    int painted = 0;
     splitUnder(body, brush);
-    for (int i = 0; i < particles.count; ++i) {
-        const size_t k = static_cast<size_t>(i);
-        const float share = particles.body[k] == body ? strength(brush, particles.position[k].xyz()) : 0.0f;
-        if (!(share > 0)) continue;
-        ++painted;
+    const int painted = forPainted(particles, body, brush, [&](size_t k, float share) {
         const float was = absorptivity(particles.absorbs[k], materials[particles.material[k]].def.absorptivity);
         particles.absorbs[k] = paintedAbsorptivity(share < 1 ? was + share * (value - was) : value);
-    }
+    });
     if (painted > 0) ++surfaceVersion_; // what was absorbed in the last step is not what it is now
     return painted;
 }

@@ -594,10 +594,7 @@ template <class F> int World::removeParticles(F&& remove, double& mass, double& 
             continue;
         }
         const size_t to = static_cast<size_t>(kept++);
-        if (to == k) continue;
-#define X(type, name) particles.name[to] = particles.name[k];
-        THAW_PARTICLE_FIELDS(X)
-#undef X
+        if (to != k) particles.copyRow(to, k);
     }
     const int gone = particles.count - kept;
     if (gone == 0) return 0;
@@ -647,12 +644,12 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     std::vector<uint8_t> materialOf;
     r = assignParts(d, mesh, place, points, tasks, materialOf, message);
     if (r != thawResult_ok) return r;
+    const float temperature = std::isnan(d.temperature) ? def.ambientTemperature : d.temperature;
     Groups groups;
     if (d.coarsestLevel > 0) {
         std::vector<uint8_t> kind = materialOf;
         for (uint8_t& k : kind)
-            if (!startsCoarse(materials[k], std::isnan(d.temperature) ? def.ambientTemperature : d.temperature))
-                k = kAlone;
+            if (!startsCoarse(materials[k], temperature)) k = kAlone;
         groups = groupPoints(points, kind, lattice);
     }
     const size_t rowsNeeded = groups.rows(points.size(), d.coarsestLevel);
@@ -665,7 +662,6 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     coarsestOf_[slot] = static_cast<uint8_t>(d.coarsestLevel);
     const Vec3 middle = d.coarsestLevel > 0 ? refer(slot, points, groups, volume) : Vec3{};
 
-    const float temperature = std::isnan(d.temperature) ? def.ambientTemperature : d.temperature;
     float meanDensity = materials[d.material.index1 - 1].def.density;
     if (d.partCount > 0) {
         double sum = 0;
@@ -705,9 +701,7 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
         const bool soft = !liquid && m.soft(), free = liquid || (soft && !(still && d.anchored));
         anySolid |= soft;
         const size_t k = static_cast<size_t>(particles.count++);
-#define X(type, name) particles.name[k] = type{};
-        THAW_PARTICLE_FIELDS(X)
-#undef X
+        particles.clearRow(k);
         particles.position[k] = {x.x, x.y, x.z, supportOf(def.particleSpacing, level)};
         particles.level[k] = static_cast<uint8_t>(level);
         anyCoarse_ |= level > 0; // before the first look at its area

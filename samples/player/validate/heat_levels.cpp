@@ -51,9 +51,7 @@ void area(Findings& found) {
         thawHeatSourceDef lamp;
         thawInitHeatSourceDef(&lamp);
         lamp.position = {0.08f, 0.02f, 0}, lamp.power = 60;
-        thawHeatSourceId id;
-        if (thawCreateHeatSource(lab.world(), &lamp, &id) != thawResult_ok)
-            throw LabError(thawWorld_GetLastError(lab.world()));
+        lab.source(lamp);
         for (int k = 0; k < 200 && shareOf(lab, 0) < 0.05; ++k) lab.step(1);
         const std::string name = shape.name + std::string(", lit");
         found.atMost(name + ": melted share", 1e-3, static_cast<double>(lab.counters().meltedFraction));

@@ -91,10 +91,7 @@ struct Plate {
         thawInitHeatSourceDef(&d);
         d.type = type;
         more(d);
-        thawHeatSourceId id;
-        if (thawCreateHeatSource(lab.world(), &d, &id) != thawResult_ok)
-            throw LabError(thawWorld_GetLastError(lab.world()));
-        return id;
+        return lab.source(d);
     }
     void wall(thawVec3 center, thawVec3 half) {
         thawColliderDef d;
@@ -315,9 +312,7 @@ void darkSide(Findings& found, const char* name, const scene::TriMesh& mesh, V l
     thawInitHeatSourceDef(&sun);
     sun.type = thawHeatSource_directional, sun.irradiance = 1000;
     sun.rotation = turnTo({0, 1, 0}, narrow(-1 * map.to));
-    thawHeatSourceId id;
-    if (thawCreateHeatSource(lab.world(), &sun, &id) != thawResult_ok)
-        throw LabError(thawWorld_GetLastError(lab.world()));
+    lab.source(sun);
     lab.step(1);
     const thawParticleView p = lab.particles();
     double dark = 0, lit = 0, caught = 0;

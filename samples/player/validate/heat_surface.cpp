@@ -147,9 +147,7 @@ void irradiatedSlab(Findings& found) {
     thawInitHeatSourceDef(&lamp);
     lamp.position = {0.5f * side, height + static_cast<float>(kDistance), 0.5f * side};
     lamp.power = static_cast<float>(kPower);
-    thawHeatSourceId id;
-    if (thawCreateHeatSource(lab.world(), &lamp, &id) != thawResult_ok)
-        throw LabError(thawWorld_GetLastError(lab.world()));
+    lab.source(lamp);
     const double flux = kPower / (4 * kPi * kDistance * kDistance);
     const double speed = flux / (kDensity * (kLatent + kHeat * (kPoint - kCold)));
     double from = -1, to = -1, last = 0;
@@ -179,8 +177,7 @@ void ledger(Findings& found) {
         thawHeatSourceDef lamp;
         thawInitHeatSourceDef(&lamp);
         lamp.position = {0.05f, 0.1f, 0}, lamp.power = 2000;
-        thawHeatSourceId id;
-        thawCreateHeatSource(lab.world(), &lamp, &id);
+        const thawHeatSourceId id = lab.source(lamp);
         float most = 0;
         lab.step(3600, [&](int frame) {
             most = std::max(most, lab.counters().meltedFraction);
@@ -228,9 +225,7 @@ void burnOff(Findings& found) {
     thawHeatSourceDef lamp;
     thawInitHeatSourceDef(&lamp);
     lamp.position = {0.05f, 0.06f, 0}, lamp.power = 2000;
-    thawHeatSourceId id;
-    if (thawCreateHeatSource(lab.world(), &lamp, &id) != thawResult_ok)
-        throw LabError(thawWorld_GetLastError(lab.world()));
+    const thawHeatSourceId id = lab.source(lamp);
     lab.step(1200);
     lamp.enabled = false;
     if (thawHeatSource_Set(lab.world(), id, &lamp) != thawResult_ok)

@@ -79,6 +79,23 @@ thawColliderId Lab::plane(thawVec3 point, thawVec3 normal) {
     return collider(d);
 }
 
+void Lab::channel(float half) {
+    for (float side = -1; side < 2; side += 2) {
+        thawColliderDef d;
+        thawInitColliderDef(&d, thawCollider_plane);
+        d.position = {0, 0, side * half};
+        d.rotation = turnTo({0, 1, 0}, {0, 0, -side});
+        d.slipLength = 1e4f;
+        collider(d);
+    }
+}
+
+thawHeatSourceId Lab::source(const thawHeatSourceDef& def) {
+    thawHeatSourceId id;
+    require(thawCreateHeatSource(world_, &def, &id));
+    return id;
+}
+
 thawColliderId Lab::floor(float y) { return plane({0, y, 0}, {0, 1, 0}); }
 
 void Lab::tank(thawVec3 lower, thawVec3 upper) {

@@ -41,7 +41,10 @@ public:
                    const std::function<void(thawBodyDef&)>& more = {});
     thawColliderId floor(float y = 0);
     thawColliderId plane(thawVec3 point, thawVec3 normal);
+    // Planes at z = -half and half on which liquids slide freely.
+    void channel(float half);
     thawColliderId collider(const thawColliderDef& def);
+    thawHeatSourceId source(const thawHeatSourceDef& def);
     // Four planes and a floor around the inside of a box, open above.
     void tank(thawVec3 lower, thawVec3 upper);
 

@@ -14,14 +14,7 @@ Layer::Layer(const thawMaterialDef& material, float dx, int layers, double slope
       spacing(static_cast<double>(dx)), length(along * spacing), ground(on) {
     const float w = 0.5f * static_cast<float>(across) * dx, l = static_cast<float>(along) * dx;
     lab.floor(on == kHeld ? -4 * dx : 0);
-    for (float side = -1; channel && side < 2; side += 2) {
-        thawColliderDef d;
-        thawInitColliderDef(&d, thawCollider_plane);
-        d.position = {0, 0, side * w};
-        d.rotation = turnTo({0, 1, 0}, {0, 0, -side});
-        d.slipLength = 1e4f;
-        lab.collider(d);
-    }
+    if (channel) lab.channel(w);
     const thawMaterialId id = lab.material(material);
     if (on == kHeld) lab.box(id, {-3.5f * dx, -4 * dx, -w}, {l + 0.5f * dx, 0, w}, Lab::kSolid);
     lab.box(id, {0, 0, -w}, {l, static_cast<float>(layers) * dx, w}, Lab::kLiquid);

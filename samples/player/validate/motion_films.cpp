@@ -248,8 +248,7 @@ void meltAndSet(Findings& found) {
             thawInitHeatSourceDef(&lamp);
             lamp.position = {0.5f * w, height + 5 * dx, 0.3f * w};
             lamp.power = 20 * dx / 0.002f * dx / 0.002f * dx / 0.002f;
-            thawHeatSourceId source;
-            if (thawCreateHeatSource(lab.world(), &lamp, &source) != thawResult_ok) throw LabError("no lamp");
+            const thawHeatSourceId source = lab.source(lamp);
             std::vector<char> ran;
             double fastest = 0;
             const auto watch = [&](int) {

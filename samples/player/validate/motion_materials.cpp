@@ -100,14 +100,7 @@ void layeredFilm(Findings& found) {
     for (const float ratio : {1.0f, 10.0f, 100.0f, 1000.0f}) {
         Lab lab(kSpacing, 14000, {0, -static_cast<float>(kInto), 0});
         lab.floor();
-        for (float side = -1; side < 2; side += 2) {
-            thawColliderDef d;
-            thawInitColliderDef(&d, thawCollider_plane);
-            d.position = {0, 0, side * kHalf};
-            d.rotation = turnTo({0, 1, 0}, {0, 0, -side});
-            d.slipLength = 1e4f;
-            lab.collider(d);
-        }
+        lab.channel(kHalf);
         const thawMaterialId below = lab.material(Lab::plain(1000, ratio * kThin)),
                              above = lab.material(Lab::plain(1000, kThin));
         lab.box(below, {0, 0, -kHalf}, {kLength, 4 * kSpacing, kHalf}, Lab::kLiquid);

@@ -245,11 +245,10 @@ void neckCut(Findings& found) {
     const thawBodyId lower = lab.box(block, {-0.016f, 0.152f, -0.016f}, {0.016f, 0.184f, 0.016f}, Lab::kSolid);
     thawHeatSourceDef s;
     thawInitHeatSourceDef(&s);
-    thawHeatSourceId id;
     for (float side : {-0.014f, 0.014f}) {
         s.position = {side, 0.206f, 0};
         s.power = 40;
-        thawCreateHeatSource(lab.world(), &s, &id);
+        lab.source(s);
     }
     thawWorld_SetAmbient(lab.world(), 299, 0);
     thawBodyState state;

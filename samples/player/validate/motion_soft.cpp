@@ -264,8 +264,7 @@ void melting(Findings& found) {
             thawInitHeatSourceDef(&source);
             source.position = {2.5f * a, 0.8f * h, 0};
             source.power = 60 * (spacing / 0.002f) * (spacing / 0.002f) * (spacing / 0.002f);
-            thawHeatSourceId id;
-            thawCreateHeatSource(lab.world(), &source, &id);
+            lab.source(source);
             double most = 0;
             lab.step(1200, [&](int) { most = std::max(most, fastest(lab)); });
             char what[64];
