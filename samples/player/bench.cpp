@@ -16,6 +16,7 @@ struct Options {
     std::vector<std::string> scenes;
     int runs = 3;
     std::string budgets, threads = "1", work, out;
+    double units = -1;
     double seconds = 0.0;
     bool quiet = false;
 };
@@ -48,7 +49,7 @@ int benchScenes(const Options& o) {
         const scene::SceneMeshes meshes = scene::loadMeshes(scene);
         const double seconds = o.seconds != 0.0 ? o.seconds : double(scene.defaults.seconds);
         for (double budgetMs : budgets) {
-            const thawBudget budget = makeBudget(scene, budgetMs, o.work);
+            const thawBudget budget = makeBudget(scene, budgetMs, o.work, o.units);
             bool known = false;
             uint64_t hash = 0;
             for (double threads : threadCounts) {
@@ -68,7 +69,7 @@ int benchScenes(const Options& o) {
                         progress.frame(f, report);
                     }
                     report.finish(built.world.get());
-                    if (budget.mode == thawBudget_work) {
+                    if (budget.mode != thawBudget_milliseconds) {
                         differs = differs || (known && hash != report.hash());
                         hash = report.hash();
                         known = true;
@@ -77,7 +78,8 @@ int benchScenes(const Options& o) {
                         budget.mode == thawBudget_work
                             ? formatted("work %d/%d/%d", budget.work.subSteps, budget.work.pressureIterations,
                                         budget.work.viscosityIterations)
-                            : formatted("%g ms", double(budget.milliseconds));
+                        : budget.mode == thawBudget_units ? formatted("%g units", double(budget.units))
+                                                          : formatted("%g ms", double(budget.milliseconds));
                     out << csvText(report.name)
                         << formatted(",%d,%d,%s,%g,%d,%.3f,%.3f,%.3f,%.3f,%d,%zu,%.5f,%.3f,%u,%s\n",
                                      report.counters().particles, report.threads, budgetText.c_str(), seconds, run,
@@ -109,6 +111,8 @@ void addBench(CLI::App& app, int& exitCode) {
         ->add_option(
             "--work", o->work,
             "Fixed work instead: sub-steps,pressure,viscosity iterations[,least sub-steps]; hashes must then agree")
+        ->excludes(budgets);
+    command->add_option("--work-units", o->units, "Budget by the fixed price list instead; hashes must then agree")
         ->excludes(budgets);
     command->add_option("--threads", o->threads, "Thread counts, with commas between")->capture_default_str();
     command->add_option("--seconds", o->seconds, "Time of the game, s (default: what the scene says)");

@@ -22,6 +22,17 @@ std::string planText(const thawPlan& plan) {
 }
 } // namespace
 
+std::string budgetText(const thawBudget& budget) {
+    switch (budget.mode) {
+    case thawBudget_milliseconds:
+        return formatted("budget %g ms", double(budget.milliseconds));
+    case thawBudget_units:
+        return formatted("budget %g units", double(budget.units));
+    default:
+        return "fixed work";
+    }
+}
+
 double Report::heatShare() const {
     double all = 0, heat = 0;
     for (int s = 0; s < thawStage_count; ++s) all += stageMs_[s];
@@ -115,8 +126,7 @@ std::string Report::table() const {
     const thawCounters& c = counters_;
     std::string out =
         formatted("%s: %zu steps of 1/60 s, %d thread%s, ", name.c_str(), steps(), threads, threads == 1 ? "" : "s");
-    out += budget.mode == thawBudget_milliseconds ? formatted("budget %g ms\n", double(budget.milliseconds))
-                                                  : "fixed work\n";
+    out += budgetText(budget) + "\n";
     out += formatted("  particles      %d  (%d moving, %d at the surface), %.1f MB\n", c.particles, c.moving, c.surface,
                      double(c.memoryBytes) / 1e6);
     out += formatted("  melted         %.1f %%  (%.1f to %.1f K)\n", 100.0 * double(c.meltedFraction),
@@ -168,8 +178,10 @@ std::string Report::json() const {
     root["scene"] = name;
     root["steps"] = steps();
     root["threads"] = threads;
-    root["budget"] = {{"mode", budget.mode == thawBudget_milliseconds ? "milliseconds" : "work"},
+    const char* const modes[] = {"work", "milliseconds", "units"};
+    root["budget"] = {{"mode", modes[budget.mode]},
                       {"milliseconds", budget.milliseconds},
+                      {"units", budget.units},
                       {"limitMilliseconds", limitMs}};
     root["particles"] = {{"count", c.particles},
                          {"moving", c.moving},
@@ -206,7 +218,10 @@ std::string Report::json() const {
                         {"finestLevel", plan_.work.finestLevel},
                         {"coarsestLevel", plan_.work.coarsestLevel},
                         {"splits", plan_.work.splits},
-                        {"predictedMilliseconds", plan_.predictedMs}};
+                        {"lateAfter", plan_.work.lateAfter},
+                        {"predictedMilliseconds", plan_.predictedMs},
+                        {"units", plan_.units},
+                        {"workers", plan_.workers}};
     root["motion"] = {{"maxSpeed", c.maxSpeed},
                       {"maxCompression", c.maxCompression},
                       {"meanCompression", c.meanCompression},
@@ -228,7 +243,10 @@ std::string Report::json() const {
 std::string Report::csvHeader() const {
     std::string out =
         "frame,time,ms,predicted_ms,status,particles,moving,surface,melted,sub_steps,pressure,viscosity,rays,"
-        "max_speed,max_compression,max_temperature,level0,level1,level2,level3,splits,merges";
+        "max_speed,max_compression,max_temperature,level0,level1,level2,level3,splits,merges,"
+        "plan_sub_steps,plan_least_sub_steps,plan_pressure,plan_viscosity,plan_heat_interval,plan_heat_cycles,"
+        "plan_ray_refresh,plan_rays_per_source,plan_finest_level,plan_coarsest_level,plan_splits,plan_late_after,"
+        "plan_units,plan_workers";
     for (int s = 0; s < thawStage_count; ++s) out += ",ms_" + std::string(thawStageName(thawStage(s)));
     return out + "\n";
 }
@@ -241,6 +259,11 @@ std::string Report::csvLine() const {
                   c.particles, c.moving, c.surface, double(c.meltedFraction), c.subSteps, c.pressureIterations,
                   c.viscosityIterations, c.rays, double(c.maxSpeed), double(c.maxCompression), double(c.maxTemperature),
                   c.levels[0], c.levels[1], c.levels[2], c.levels[3], c.splits, c.merges);
+    const thawWork& w = plan_.work;
+    out +=
+        formatted(",%d,%d,%d,%d,%d,%d,%.4g,%d,%d,%d,%d,%d,%.0f,%d", w.subSteps, w.leastSubSteps, w.pressureIterations,
+                  w.viscosityIterations, w.heatInterval, w.heatCycles, double(w.rayRefresh), w.raysPerSource,
+                  w.finestLevel, w.coarsestLevel, w.splits, w.lateAfter, double(plan_.units), plan_.workers);
     for (float ms : profile_.stage) out += formatted(",%.4f", double(ms));
     return out + "\n";
 }

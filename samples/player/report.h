@@ -58,6 +58,7 @@ private:
 // Bits in words, "nothing" for none.
 std::string statusWords(uint32_t status);
 std::string hashText(uint64_t hash);
+std::string budgetText(const thawBudget& budget); // in words
 // printf into a string.
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))

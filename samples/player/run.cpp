@@ -44,10 +44,16 @@ void RunOptions::addTo(CLI::App& command) {
     command.add_option("--seconds", seconds, "Time of the game to run, s (default: what the scene says)");
     CLI::Option* ms =
         command.add_option("--budget-ms", budgetMs, "Time a step may take, ms (default: what the scene says)");
+    CLI::Option* fixedWork =
+        command
+            .add_option("--work", work,
+                        "Fixed work instead: sub-steps,pressure,viscosity iterations[,least sub-steps], such as 4,4,12")
+            ->excludes(ms);
     command
-        .add_option("--work", work,
-                    "Fixed work instead: sub-steps,pressure,viscosity iterations[,least sub-steps], such as 4,4,12")
-        ->excludes(ms);
+        .add_option("--work-units", units,
+                    "Budget by the fixed price list instead, the same on every machine; about 1000 a millisecond")
+        ->excludes(ms)
+        ->excludes(fixedWork);
     CLI::Option* fixed = command.add_option(
         "--fixed-level", fixedLevel, "All particles of one level, 0 (finest) to 3, as far as they can be that coarse");
     command
@@ -71,7 +77,7 @@ void RunOptions::addTo(CLI::App& command) {
     command.add_flag("--quiet", quiet, "No progress on stderr");
 }
 
-thawBudget makeBudget(const scene::Scene& scene, double budgetMs, const std::string& work) {
+thawBudget makeBudget(const scene::Scene& scene, double budgetMs, const std::string& work, double units) {
     thawBudget budget;
     thawInitBudget(&budget);
     budget.milliseconds = scene.defaults.budgetMilliseconds;
@@ -91,6 +97,12 @@ thawBudget makeBudget(const scene::Scene& scene, double budgetMs, const std::str
         }
         return budget;
     }
+    if (units != -1) {
+        checkRange("--work-units", units, 0, 1e12);
+        budget.mode = thawBudget_units;
+        budget.units = float(units);
+        return budget;
+    }
     budget.mode = thawBudget_milliseconds;
     if (budgetMs != 0.0) {
         checkRange("--budget-ms", budgetMs, 0.05, 1e4, "ms");
@@ -106,8 +118,10 @@ void applyLevels(const RunOptions& o, scene::Scene& scene, thawBudget& budget) {
     if (o.coarsestLevel != -1) checkRange("--coarsest-level", o.coarsestLevel, 0, 3);
     if (coarsest < 0) return;
     for (scene::Body& b : scene.bodies) b.coarsestLevel = coarsest;
-    budget.work.coarsestLevel = coarsest;
-    if (fixed >= 0) budget.work.finestLevel = fixed;
+    for (thawWork* work : {&budget.work, &budget.least, &budget.most}) {
+        work->coarsestLevel = coarsest;
+        if (fixed >= 0) work->finestLevel = fixed;
+    }
 }
 
 int framesOf(double seconds) { return std::max(1, int(std::lround(seconds / kFrameSeconds))); }
@@ -143,7 +157,7 @@ int runScene(scene::Scene scene, const RunOptions& o) {
     checkRange("--threads", o.threads, 1, 64);
     checkRange("--pictures", o.pictures, 0, 1000);
     checkRange("--most-over", o.mostOver, 0, 100, "%");
-    thawBudget budget = makeBudget(scene, o.budgetMs, o.work);
+    thawBudget budget = makeBudget(scene, o.budgetMs, o.work, o.units);
     applyLevels(o, scene, budget);
     const PictureView view = parseView("--view", o.view);
     const PictureSize size = parseSize("--picture-size", o.size);

@@ -15,6 +15,7 @@ struct RunOptions {
     double seconds = 0.0;  // 0: what the scene says
     double budgetMs = 0.0; // 0: what the scene says
     std::string work;      // "subSteps,pressure,viscosity"; empty: milliseconds
+    double units = -1;     // of thawBudget_units; -1: none
     int threads = defaultThreads();
     int fixedLevel = -1, coarsestLevel = -1; // -1: what the scene says
     bool notAdaptive = false;
@@ -26,8 +27,8 @@ struct RunOptions {
     void addTo(CLI::App& command);
 };
 
-// Milliseconds of the options or the scene, or the work units of the options. Throws InputError.
-thawBudget makeBudget(const scene::Scene& scene, double budgetMs, const std::string& work);
+// Milliseconds of the options or the scene, or the fixed work or the units of the options. Throws InputError.
+thawBudget makeBudget(const scene::Scene& scene, double budgetMs, const std::string& work, double units = -1);
 // Levels of the options, into the bodies and the budget. Throws InputError.
 void applyLevels(const RunOptions& options, scene::Scene& scene, thawBudget& budget);
 // Steps of 1/60 s that make up a time, at least one.

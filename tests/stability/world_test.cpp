@@ -171,6 +171,88 @@ TEST_CASE("world: the governor's plan, fed back as work units, gives the same bi
     CHECK(varied); // the budget was tight enough to make the plan change
 }
 
+TEST_CASE("world: a late step gives up iterations, says so, and does it again from its plan") {
+    WorldFixture late, again, whole;
+    for (WorldFixture* f : {&late, &again, &whole}) stump(*f, 100);
+    for (WorldFixture* f : {&late, &again, &whole}) f->step(60); // it melts
+    late.budget.mode = thawBudget_milliseconds, late.budget.milliseconds = 0;
+    late.budget.least = late.budget.most; // nothing but lateness may take work away
+    late.budget.least.finestLevel = 0;
+    whole.budget.work = late.budget.most;
+    for (int i = 0; i < 60; ++i) {
+        const uint32_t status = late.step();
+        CHECK((status & thawStep_late) != 0);
+        CHECK((status & thawStep_overBudget) != 0);
+        CHECK(late.plan().work.lateAfter > 0);
+        CHECK(late.plan().work.pressureIterations == late.budget.most.pressureIterations);
+        again.budget.work = late.plan().work;
+        CHECK((again.step() & (thawStep_late | thawStep_overBudget)) == thawStep_late);
+        REQUIRE(thawWorld_GetStateHash(late.world) == thawWorld_GetStateHash(again.world));
+        CHECK((whole.step() & thawStep_late) == 0);
+        REQUIRE(late.counters().moving > 0);
+        CHECK(late.counters().pressureIterations <= 2 * late.counters().subSteps);
+        CHECK(late.counters().viscosityIterations <= 3 * late.counters().subSteps);
+        CHECK(whole.counters().pressureIterations == 64 * whole.counters().subSteps);
+    }
+    CHECK(thawWorld_GetStateHash(late.world) != thawWorld_GetStateHash(whole.world));
+    thawLedger l;
+    thawWorld_GetLedger(late.world, &l);
+    CHECK(l.massError == 0);
+    CHECK(l.energyError < 1e-6);
+}
+
+TEST_CASE("world: a budget in units chooses the same on any number of threads, and keeps to it") {
+    WorldFixture f[3];
+    const int threads[3] = {1, 2, 4};
+    for (int n = 0; n < 3; ++n) {
+        f[n].def.tasks.workerCount = threads[n];
+        f[n].budget.mode = thawBudget_units, f[n].budget.units = 900;
+        stump(f[n], 100);
+    }
+    bool varied = false, over = false;
+    thawWork first{};
+    for (int i = 0; i < 240; ++i) {
+        uint32_t status[3];
+        for (int n = 0; n < 3; ++n) status[n] = f[n].step();
+        for (int n = 1; n < 3; ++n) {
+            REQUIRE(thawWorld_GetStateHash(f[n].world) == thawWorld_GetStateHash(f[0].world));
+            REQUIRE(status[n] == status[0]);
+        }
+        const thawPlan p = f[0].plan();
+        if (i == 0) first = p.work;
+        varied |= p.work.pressureIterations != first.pressureIterations;
+        over |= (status[0] & thawStep_overBudget) != 0;
+        CHECK(((status[0] & thawStep_overBudget) != 0) == (p.units > 900));
+    }
+    CHECK(varied);
+    CHECK_FALSE(over);
+}
+
+TEST_CASE("world: a body too big for its budget goes to the coarsest level and never stalls") {
+    WorldFixture f;
+    f.def.maxParticles = 20000;
+    f.create();
+    f.addMaterial();
+    f.addFloor();
+    f.budget.mode = thawBudget_units, f.budget.units = 0;
+    f.addBox({-0.024f, 0, -0.024f}, {0.024f, 0.04f, 0.024f}, 360); // liquid: 11,520 particles
+    const int start = f.counters().particles;
+    REQUIRE(start > 10000);
+    uint32_t status = 0;
+    for (int i = 0; i < 400; ++i) {
+        status = f.step();
+        CHECK((status & thawStep_refused) == 0);
+    }
+    CHECK((status & thawStep_overBudget) != 0);
+    CHECK(f.plan().work.finestLevel == 3);
+    CHECK(f.counters().steps == 400);
+    CHECK(f.counters().particles < start / 4);
+    CHECK(f.counters().levels[3] > f.counters().particles / 2);
+    thawLedger l;
+    thawWorld_GetLedger(f.world, &l);
+    CHECK(l.massError < 1e-6);
+}
+
 TEST_CASE("world: the hash tells worlds apart") {
     WorldFixture a, b;
     stump(a), stump(b);

@@ -271,6 +271,11 @@ TEST_CASE("api: step refuses bad time steps and budgets and changes nothing") {
         {"rayRefresh", [](thawBudget& b) { b.work.rayRefresh = 2; }},
         {"heatCycles", [](thawBudget& b) { b.work.heatCycles = 0; }},
         {"heatInterval", [](thawBudget& b) { b.work.heatInterval = 100; }},
+        {"units", [](thawBudget& b) { b.mode = thawBudget_units, b.units = NAN; }},
+        {"most.subSteps", [](thawBudget& b) { b.mode = thawBudget_units, b.most.subSteps = 17; }},
+        {"least.rayRefresh", [](thawBudget& b) { b.mode = thawBudget_milliseconds, b.least.rayRefresh = NAN; }},
+        {"work.lateAfter", [](thawBudget& b) { b.work.lateAfter = -1; }},
+        {"milliseconds", [](thawBudget& b) { b.mode = thawBudget_milliseconds, b.milliseconds = 2e9f; }},
         {"mode", [](thawBudget& b) { store(b.mode, 9); }},
     };
     for (const Case& c : cases) {
@@ -287,7 +292,7 @@ TEST_CASE("api: step refuses bad time steps and budgets and changes nothing") {
 }
 
 TEST_CASE("api: every bit, stage and reason has words") {
-    for (uint32_t bit = 1; bit <= thawStep_overBudget; bit <<= 1) CHECK(std::strlen(thawStepStatusString(bit)) > 0);
+    for (uint32_t bit = 1; bit <= thawStep_late; bit <<= 1) CHECK(std::strlen(thawStepStatusString(bit)) > 0);
     CHECK(std::strlen(thawStepStatusString(0)) == 0);
     for (int s = 0; s < thawStage_count; ++s) CHECK(std::strlen(thawStageName(static_cast<thawStage>(s))) > 0);
     for (int r = 0; r <= thawReason_oneLevel; ++r) CHECK(std::strlen(thawReasonString(static_cast<thawReason>(r))) > 0);

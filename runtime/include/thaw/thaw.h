@@ -64,8 +64,9 @@ typedef enum thawStepStatus {
     thawStep_neighborsClipped = 1 << 4,  /* some particle had more neighbours than a list holds */
     thawStep_badParticlesRemoved = 1 << 5, /* some particle became not finite and was taken out; see the ledger */
     thawStep_raysReduced = 1 << 6,         /* only part of the visibility rays was refreshed */
-    thawStep_overBudget = 1 << 7,          /* the step took longer than its budget in milliseconds */
-    thawStep_splitsClipped = 1 << 8 /* some particles stayed coarser than they should be: maxParticles, or splits */
+    thawStep_overBudget = 1 << 7,    /* the step took longer than its budget, or its least work costs more units */
+    thawStep_splitsClipped = 1 << 8, /* some particles stayed coarser than they should be: maxParticles, or splits */
+    thawStep_late = 1 << 9 /* the step ran late and gave up iterations, rays or splits on its way; see lateAfter */
 } thawStepStatus;
 
 /* THAW_VERSION of the library that runs; differs from the macro when headers and library differ. */
@@ -479,19 +480,30 @@ typedef struct thawWork {
     int32_t finestLevel;   /* particles get no finer than 2^this times the finest mass; range 0..3, default 0 */
     int32_t coarsestLevel; /* and no coarser; range 0..3, default 3; finestLevel goes before it */
     int32_t splits;        /* particles that may come to be by splitting in a step; range 1..1e6, default 2048 */
+    int32_t lateAfter;     /* range 0..1e9, default 0: never. A step that ran late notes here in its plan after how many
+                              of its safe points that was; with the same number it gives up the same again */
 } thawWork;
 
 typedef enum thawBudgetMode {
-    thawBudget_work = 0,    /* do exactly budget.work; never looks at a clock */
-    thawBudget_milliseconds /* the governor chooses the work, at most budget.work, to fit budget.milliseconds */
+    thawBudget_work = 0,     /* do exactly budget.work; never looks at a clock */
+    thawBudget_milliseconds, /* the governor chooses the work so that the step takes no longer than budget.milliseconds
+                                of this machine, and a step that runs late all the same gives up iterations */
+    thawBudget_units /* the governor chooses the work by a fixed price list, budget.units: never looks at a clock,
+                        chooses the same on every machine, for lockstep and replay */
 } thawBudgetMode;
 
 typedef struct thawBudget {
     uint32_t structSize, cookie;
     thawBudgetMode mode; /* default thawBudget_work */
-    float milliseconds;  /* > 0 in its mode, at most 1e4; default 4 */
-    thawWork work;       /* default: 4 sub-steps at most, 4 pressure, 12 viscosity, heat every step, all rays,
-                            80 sub-cycles of conduction, 16 rays a source */
+    float milliseconds;  /* range 0..1e9, default 4; 0: the least work there is */
+    float units;    /* range 0..1e12, default 4000; 1000 are about what a quiet machine with two cores does in 1 ms */
+    thawWork work;  /* of thawBudget_work. Default: 4 sub-steps at most, 8 pressure, 12 viscosity, heat every step, all
+                       rays, 80 sub-cycles of conduction, 16 rays a source */
+    thawWork least; /* what the governor never goes below. Default: 1 sub-step, 3 pressure, 6 viscosity, heat every 8th
+                       step, 0.05 of the rays, 8 sub-cycles, 4 rays a source, finestLevel 3 */
+    thawWork most;  /* and never above; goes before it. Default: 16 sub-steps, 8 of them at least, 64 pressure, 200
+                       viscosity, heat every step, all rays, 1000 sub-cycles, 64 rays a source, levels 0 to 3.
+                       One knob the same in both: it stays there */
 } thawBudget;
 THAW_API void thawInitBudget(thawBudget* budget);
 
@@ -500,7 +512,9 @@ typedef struct thawPlan {
     bool enabled[thawStage_count];
     thawReason reason[thawStage_count];
     thawWork work;     /* as chosen; feed it back with thawBudget_work for the same bits */
-    float predictedMs; /* of the governor, 0 in work mode */
+    float predictedMs; /* by the governor of milliseconds, from what the last steps took */
+    float units;       /* predicted for this work by the price list of thawBudget_units */
+    int32_t workers;   /* threads that took part: fewer than the world has while the system keeps taking some away */
 } thawPlan;
 THAW_API void thawWorld_GetPlan(const thawWorld* world, thawPlan* out);
 /* The plan that a step with this budget would run now; steps nothing. */

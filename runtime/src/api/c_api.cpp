@@ -201,28 +201,36 @@ void checkSource(Check& c, const thawHeatSourceDef* d) {
     c.range("irradiance", d->irradiance, -1e12, 1e12);
 }
 
-void checkWork(Check& c, const thawWork& w) {
-    c.range("work.subSteps", w.subSteps, 1, 16);
-    c.range("work.leastSubSteps", w.leastSubSteps, 1, 16);
-    c.range("work.pressureIterations", w.pressureIterations, 1, 64);
-    c.range("work.viscosityIterations", w.viscosityIterations, 1, 200);
-    c.range("work.heatInterval", w.heatInterval, 1, 8);
-    c.range("work.rayRefresh", w.rayRefresh, 0.05, 1);
-    c.range("work.heatCycles", w.heatCycles, 1, 1000);
-    c.range("work.raysPerSource", w.raysPerSource, 1, 64);
-    c.range("work.finestLevel", w.finestLevel, 0, 3);
-    c.range("work.coarsestLevel", w.coarsestLevel, 0, 3);
-    c.range("work.splits", w.splits, 1, 1e6);
+void checkWork(Check& c, const char* of, const thawWork& w) {
+    const auto range = [&](const char* field, double value, double low, double high) {
+        if (!(value >= low && value <= high))
+            c.fail(thawResult_invalidArgument, "budget.%s.%s: must be in %g..%g, got %g", of, field, low, high, value);
+    };
+    range("subSteps", w.subSteps, 1, 16);
+    range("leastSubSteps", w.leastSubSteps, 1, 16);
+    range("pressureIterations", w.pressureIterations, 1, 64);
+    range("viscosityIterations", w.viscosityIterations, 1, 200);
+    range("heatInterval", w.heatInterval, 1, 8);
+    range("rayRefresh", w.rayRefresh, 0.05, 1);
+    range("heatCycles", w.heatCycles, 1, 1000);
+    range("raysPerSource", w.raysPerSource, 1, 64);
+    range("finestLevel", w.finestLevel, 0, 3);
+    range("coarsestLevel", w.coarsestLevel, 0, 3);
+    range("splits", w.splits, 1, 1e6);
+    range("lateAfter", w.lateAfter, 0, 1e9);
 }
 
 void checkBudget(Check& c, const thawBudget& b) {
     c.initialised("budget", &b);
     if (!c.ok()) return;
     const int mode = valueOf(b.mode);
-    if (mode != thawBudget_work && mode != thawBudget_milliseconds)
+    if (mode != thawBudget_work && mode != thawBudget_milliseconds && mode != thawBudget_units)
         c.fail(thawResult_invalidArgument, "budget.mode: is not a thawBudgetMode, got %d", mode);
-    if (mode == thawBudget_milliseconds) c.range("budget.milliseconds", b.milliseconds, 1e-6, 1e4);
-    checkWork(c, b.work);
+    if (mode == thawBudget_milliseconds) c.range("budget.milliseconds", b.milliseconds, 0, 1e9);
+    if (mode == thawBudget_units) c.range("budget.units", b.units, 0, 1e12);
+    if (mode == thawBudget_work) return checkWork(c, "work", b.work);
+    checkWork(c, "least", b.least);
+    checkWork(c, "most", b.most);
 }
 
 void checkParts(const World& w, Check& c, const thawBodyDef& def) {
@@ -260,8 +268,10 @@ thawBudget defaultBudget() {
     thawBudget b{};
     b.structSize = sizeof b, b.cookie = thaw::kDefCookie;
     b.mode = thawBudget_work;
-    b.milliseconds = 4;
-    b.work = {4, 8, 12, 1, 1.0f, 1, 80, 16, 0, 3, 2048};
+    b.milliseconds = 4, b.units = 4000;
+    b.work = {4, 8, 12, 1, 1.0f, 1, 80, 16, 0, 3, 2048, 0};
+    b.least = {1, 3, 6, 8, 0.05f, 1, 8, 4, 3, 3, 2048, 0};
+    b.most = {16, 64, 200, 1, 1.0f, 8, 1000, 64, 0, 3, 2048, 0};
     return b;
 }
 
@@ -322,6 +332,8 @@ const char* thawStepStatusString(uint32_t bit) {
         return "some particles stayed coarser than they should be: maxParticles is reached, or splits too low";
     case thawStep_overBudget:
         return "the step took longer than its budget";
+    case thawStep_late:
+        return "the step ran late and gave up some of its work";
     default:
         return "";
     }

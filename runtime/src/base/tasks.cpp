@@ -59,6 +59,8 @@ struct Tasks::Impl {
 
     thawTaskSystem system{};
     int workers = 1;
+    std::atomic<int> used{1}; // of them; changes between jobs
+    float stalledMs = 0;
     Share shares[kMaxWorkers];
     Job job{};
     FloatMode mode;
@@ -100,6 +102,7 @@ struct Tasks::Impl {
             uint32_t seen = waitForJob(last);
             if (quit.load()) return;
             last = seen & kNumberMask;
+            if (worker >= used.load(std::memory_order_relaxed)) continue;
             while ((seen & kOpen) && (seen & kNumberMask) == last)
                 if (gate.compare_exchange_weak(seen, seen + 1)) {
                     mode.apply();
@@ -134,7 +137,7 @@ struct Tasks::Impl {
         int asleep = sleepers.load();
         if (asleep == 0) return;
         { std::lock_guard<std::mutex> lock(mutex); } // who is about to wait has checked the gate before or waits now
-        if (wanted >= asleep)
+        if (wanted >= asleep || used.load(std::memory_order_relaxed) < workers) // one alone may be the wrong one
             wake.notify_all();
         else
             for (int k = 0; k < wanted; ++k) wake.notify_one();
@@ -153,6 +156,7 @@ Tasks::Tasks(const thawTaskSystem& system) : impl_(std::make_unique<Impl>()) {
     Impl& p = *impl_;
     p.system = system;
     p.workers = std::clamp(system.workerCount, 1, kMaxWorkers);
+    p.used = p.workers;
     for (int w = 0; w < p.workers; ++w) p.shares[w].impl = &p, p.shares[w].worker = w;
     if (system.enqueue) return;
     try {
@@ -167,12 +171,23 @@ Tasks::~Tasks() { impl_->stop(); }
 
 int Tasks::workerCount() const { return impl_->workers; }
 
+void Tasks::useWorkers(int count) {
+    impl_->used.store(std::clamp(count, 1, impl_->workers), std::memory_order_relaxed);
+}
+
+float Tasks::takeStalledMs() {
+    const float ms = impl_->stalledMs;
+    impl_->stalledMs = 0;
+    return ms;
+}
+
 void Tasks::run(const Job& wanted) {
     Impl& p = *impl_;
+    const int used = p.used.load(std::memory_order_relaxed);
     Job job = wanted;
     if (job.blockSize < 1) job.blockSize = 1;
     int blocks = static_cast<int>((static_cast<int64_t>(job.count) + job.blockSize - 1) / job.blockSize);
-    if (p.workers == 1 || blocks == 1) {
+    if (used == 1 || blocks == 1) {
         for (int b = 0; b < blocks; ++b) {
             int begin = b * job.blockSize;
             job.call(job.context, begin, blockEnd(job, begin), b, 0);
@@ -182,12 +197,13 @@ void Tasks::run(const Job& wanted) {
 
     p.job = job;
     p.mode = FloatMode();
-    for (int w = 0; w < p.workers; ++w) {
-        p.shares[w].next.store(static_cast<int>(static_cast<int64_t>(blocks) * w / p.workers),
+    for (int w = 0; w < p.workers; ++w) { // who does not take part has none of them
+        const int share = std::min(w, used), next = std::min(w + 1, used);
+        p.shares[w].next.store(static_cast<int>(static_cast<int64_t>(blocks) * share / used),
                                std::memory_order_relaxed);
-        p.shares[w].end = static_cast<int>(static_cast<int64_t>(blocks) * (w + 1) / p.workers);
+        p.shares[w].end = static_cast<int>(static_cast<int64_t>(blocks) * next / used);
     }
-    int helpers = std::min(p.workers, blocks) - 1;
+    int helpers = std::min(used, blocks) - 1;
 
     if (p.system.enqueue) {
         for (int w = 1; w <= helpers; ++w)
@@ -204,10 +220,14 @@ void Tasks::run(const Job& wanted) {
     p.work(0);
     p.gate.fetch_and(~Impl::kOpen);
     for (int k = 0; p.gate.load() & Impl::kInsideMask; ++k) {
-        if (k < 4096)
+        if (k < 4096) {
             relax();
-        else
-            std::this_thread::yield(); // the one inside may need this core
+            continue;
+        }
+        const auto start = std::chrono::steady_clock::now();
+        while (p.gate.load() & Impl::kInsideMask) std::this_thread::yield(); // the one inside may need this core
+        p.stalledMs += std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - start).count();
+        break;
     }
 }
 

@@ -23,6 +23,10 @@ public:
     Tasks& operator=(const Tasks&) = delete;
 
     int workerCount() const;
+    // Of them, so many take part from now on, 1 to workerCount(): the bits are the same.
+    void useWorkers(int count);
+    // ms since the last call that the caller waited for workers which had begun and did not get on. Of the own pool.
+    float takeStalledMs();
 
     // Calls f(begin, end, block, worker) for every block [begin, end) of [0, count). f must not throw.
     template <class F> void forBlocks(int count, int blockSize, F&& f) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/safe_points.h"
 #include "base/tasks.h"
 #include "base/types.h"
 #include "geometry/colliders.h"
@@ -31,11 +32,13 @@ struct MotionFrame {
     Vec3 gravity;
     float spacing; // m, of level 0
     int pressureIterations, viscosityIterations;
-    float heldSpeed = 0;             // m/s, of the fastest fixed particle: what hangs on a collider moves with it
-    Bonds* bonds = nullptr;          // null, or without any: nothing is elastic
-    Rigid* rigid = nullptr;          // pieces that move as one, when there are any
-    RigidLiquid* coupling = nullptr; // with rigid
-    Reference* reference = nullptr;  // of untouched solids, when there are any that are coarse
+    float heldSpeed = 0;              // m/s, of the fastest fixed particle: what hangs on a collider moves with it
+    Bonds* bonds = nullptr;           // null, or without any: nothing is elastic
+    Rigid* rigid = nullptr;           // pieces that move as one, when there are any
+    RigidLiquid* coupling = nullptr;  // with rigid
+    Reference* reference = nullptr;   // of untouched solids, when there are any that are coarse
+    SafePoints* safePoints = nullptr; // at each of which iterations may be given up; null: none are
+    int leastViscosity = 1, leastPressure = 1; // iterations that are done however late it is
 
     BondFrame bondFrame() const {
         return {particles, neighbors, volume, materials, colliders, colliderCount, tasks, dt, gravity, rigid};
@@ -43,7 +46,7 @@ struct MotionFrame {
 };
 
 struct MotionStats {
-    int viscosityIterations = 0;
+    int viscosityIterations = 0, pressureIterations = 0;
     bool iterationsClipped = false, velocityClamped = false;
     float maxSpeed = 0, maxCompression = 0, meanCompression = 0, apparentViscosity = 0;
 };

@@ -34,6 +34,8 @@ void Motion::pressure(const MotionFrame& f) {
     const float feedback = densityFeedback(f.subSteps), weight = jacobiWeight(f.subSteps) / (f.dt * f.dt);
     if (wallsMove_ || heldMoves_) meetMovingWalls(f);
     for (int iteration = 0; iteration < f.pressureIterations; ++iteration) {
+        if (iteration >= f.leastPressure && f.safePoints && f.safePoints->late()) break;
+        ++stats_.pressureIterations;
         f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
             if (unlike_) moveMirrors(f, begin, end);
             pairJacobi({lists, p.position.data(), p.velocity.data(), wallGradient_.data(), p.stiffness.data(),

@@ -299,6 +299,7 @@ void Motion::viscosity(const MotionFrame& f) {
         }
 
         for (int n = 0; n < f.viscosityIterations && rr > allowed && rz > 0; ++n, ++iteration) {
+            if (n >= f.leastViscosity && f.safePoints && f.safePoints->late()) break;
             forMovers([&](int begin, int end, int, BlockSums& sums) {
                 applyViscosity(f, direction_.data(), begin, end, true);
                 sums.a = innerProduct(direction_.data(), image_.data(), 8 * begin, 8 * end);

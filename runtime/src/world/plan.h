@@ -34,43 +34,4 @@ thawPlan makePlan(const Needs& needs, const thawWork& work);
 // Rays that radiation casts at the most.
 int mostRays(const Needs& needs, const thawWork& work);
 
-// Chooses work units for a budget in milliseconds: predicts the cost of a step from what the last ones cost per unit,
-// takes the best quality whose prediction fits, drops at once and climbs slowly. Wall-clock enters here only, and what
-// comes out is an input of the step. A cousin of the animation budget allocators of game engines, with prediction in
-// place of feedback.
-class Governor {
-public:
-    thawWork choose(const Needs& needs, float milliseconds, const thawWork& limit, int subStepsWanted,
-                    float& predictedMs);
-    struct Cost {
-        float stageMs[thawStage_count];
-        int particles, movers, exposed, rays, mostRays, subSteps, pressureIterations,
-            viscosityIterations;    // iterations summed
-        int heatWanted, heatPasses; // explicit sub-cycles of conduction that the step needed; passes that it did
-        bool heatRan;
-    };
-    void learn(const Cost& cost);
-
-private:
-    void chooseLevel(const Needs& needs, float milliseconds, const thawWork& limit, int subStepsWanted);
-    float predict(const Needs& needs, const thawWork& work, int subStepsWanted) const;
-    // Milliseconds per unit, running estimates; start values from a 2-core machine, replaced within a few frames.
-    float perParticle_ = 8e-5f;     // lists and sort, per particle and sub-step
-    float perExposure_ = 2e-5f;     // exposure, hold and stats, per particle
-    float perRay_ = 4e-4f;          // per ray; a quarter of it per exposed particle
-    float rayUse_ = 1;              // of the rays that could be, those that were: what rests is not looked at again
-    float perHeat_ = 2e-5f;         // conduction, loss, integration, per particle and pass
-    float perMover_ = 8e-5f;        // forces, collision, per mover and sub-step
-    float perViscosity_ = 2.5e-5f;  // per mover and iteration
-    float perPressure_ = 2.5e-5f;   // per mover and iteration
-    float fixed_ = 0.05f;           // per step
-    float viscosityPerSubStep_ = 8; // iterations that a sub-step really takes
-    int heatWanted_ = 1;            // sub-cycles of the last heat
-    int quality_ = 0;
-    int goodFrames_ = 0;
-    int finest_ = 0; // level
-    int tight_ = 0;  // frames on end that need a coarser one
-    int roomy_ = 0;  // or would hold a finer one
-};
-
 } // namespace thaw

@@ -20,7 +20,11 @@ constexpr uint32_t kRelabelInterval = 8;
 constexpr float kEqualTemperature = 1e-3f; // K
 constexpr int kRowBlock = 2048;
 
-using Clock = std::chrono::steady_clock;
+using Clock = SafePoints::Clock;
+// Of a budget in milliseconds: what nobody counts comes on top of what is still expected.
+constexpr float kLateFrom = 0.95f;
+constexpr float kLateRays = 0.05f; // of the rays, when a step is late before it is warm
+constexpr float kUnitsPerMs = 1000;
 
 // Adds the wall-clock time of its scope to one field of the profile.
 struct StageTimer {
@@ -68,18 +72,27 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     if (toldApart_) startColliders(dt, 0, 1);
     if (const int woken = toldApart_ && anySoft() ? bonds_.wakeBefore(bondFrame(dt)) : 0)
         counters_.moving += woken, counters_.fixed -= woken, listsStale_ = holdStale_ = true;
-    const int wanted = std::max(subStepsWanted(dt), static_cast<int>(budget.work.leastSubSteps));
-    // What this frame runs: the host's work units, or the governor's choice within a budget of milliseconds.
-    thawWork work = budget.work;
-    float predicted = 0;
-    if (budget.mode == thawBudget_milliseconds)
-        work = governor_.choose(needs(), budget.milliseconds, budget.work, wanted, predicted);
-    heatTimePending_ += static_cast<double>(dt) * def.thermalTimeScale;
     Needs now = needs();
+    int wanted = subStepsWanted(dt);
+    const Governor::Choice choice = chooseWork(governor_, units_, now, budget, wanted);
+    thawWork work = choice.work;
+    heatTimePending_ += static_cast<double>(dt) * def.thermalTimeScale;
     now.heatDue = heatDue(work);
     plan = makePlan(now, work);
-    plan.predictedMs = predicted;
+    plan.predictedMs = budget.mode == thawBudget_milliseconds ? choice.predictedMs : 0;
+    plan.units = kUnitsPerMs * units_.predict(now, work, wanted);
+    plan.workers = choice.workers;
+    tasks.useWorkers(choice.workers);
+    if (budget.mode == thawBudget_milliseconds)
+        safePoints_.watch(start, kLateFrom * budget.milliseconds);
+    else
+        safePoints_.count(work.lateAfter);
+    if (budget.mode == thawBudget_units && plan.units > budget.units) status |= thawStep_overBudget;
+    wanted = std::max(wanted, static_cast<int>(work.leastSubSteps));
     const int subSteps = std::clamp(wanted, 1, work.subSteps);
+    const auto expectRest = [&](int subStepsLeft) {
+        if (budget.mode == thawBudget_milliseconds) safePoints_.expect(governor_.rest(now, subStepsLeft));
+    };
     if (wanted > subSteps && now.movers > 0) status |= thawStep_subStepsClipped;
     auto on = [&](thawStage s) { return plan.enabled[s]; };
     auto timed = [&](thawStage s) { return StageTimer(profile.stage[s]); };
@@ -103,6 +116,8 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     const bool heated = on(thawStage_radiation) || on(thawStage_conduction) || on(thawStage_loss);
     HeatStats heatStats{};
     if (heated) {
+        expectRest(subSteps);
+        if (on(thawStage_radiation) && safePoints_.late()) work.rayRefresh = std::min(work.rayRefresh, kLateRays);
         HeatFrame frame = heatFrame(heatTimePending_, work);
         if (on(thawStage_radiation)) {
             auto t = timed(thawStage_radiation);
@@ -145,6 +160,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
                 refreshNeighbors();
             }
             if (toldApart_) carryHeld(h, s, subSteps);
+            expectRest(subSteps - 1 - s);
             const MotionFrame frame = motionFrame(h, subSteps, work);
             {
                 auto t = timed(thawStage_forces);
@@ -170,6 +186,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
             }
             const MotionStats& m = motion_.stats();
             motionStats.viscosityIterations += m.viscosityIterations;
+            motionStats.pressureIterations += m.pressureIterations;
             motionStats.iterationsClipped |= m.iterationsClipped, motionStats.velocityClamped |= m.velocityClamped;
             motionStats.maxSpeed = std::max(motionStats.maxSpeed, m.maxSpeed);
             motionStats.maxCompression = m.maxCompression, motionStats.meanCompression = m.meanCompression;
@@ -187,7 +204,10 @@ uint32_t World::step(float dt, const thawBudget& budget) {
         holdAndRelease(dt);
     }
     LevelResult levelResult;
-    if (on(thawStage_levels)) {
+    expectRest(0);
+    if (on(thawStage_levels) && safePoints_.late()) {
+        levelsChanged_ = true; // the next step sees to it
+    } else if (on(thawStage_levels)) {
         auto t = timed(thawStage_levels);
         levelResult = levels_.apply(levelFrame(work));
         if (levelResult.split + levelResult.merged > 0) listsStale_ = true;
@@ -216,7 +236,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     ++steps_;
     time_ += dt;
     counters_.subSteps = on(thawStage_forces) ? subSteps : 0;
-    counters_.pressureIterations = on(thawStage_pressure) ? subSteps * work.pressureIterations : 0;
+    counters_.pressureIterations = motionStats.pressureIterations;
     counters_.viscosityIterations = motionStats.viscosityIterations;
     counters_.rays = heatStats.rays;
     counters_.splits = levelResult.split, counters_.merges = levelResult.merged;
@@ -232,7 +252,10 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     cost.subSteps = subSteps, cost.pressureIterations = counters_.pressureIterations;
     cost.viscosityIterations = counters_.viscosityIterations, cost.heatRan = heated;
     cost.heatWanted = heatStats.cyclesWanted, cost.heatPasses = heatStats.passes;
-    governor_.learn(cost);
+    cost.stepMs = profile.step, cost.stalledMs = tasks.takeStalledMs();
+    cost.predictedMs = plan.predictedMs, cost.late = safePoints_.lateAt() > 0;
+    governor_.learn(cost), units_.learn(cost);
+    if (cost.late) status |= thawStep_late, plan.work.lateAfter = safePoints_.lateAt();
     if (budget.mode == thawBudget_milliseconds && profile.step > budget.milliseconds) status |= thawStep_overBudget;
     return status;
 }
@@ -339,18 +362,26 @@ int World::subStepsWanted(float dt) const {
     return std::max(wanted, bonds_.subStepsWanted(particles, dt, gravity, def.particleSpacing, kMost));
 }
 
+Governor::Choice World::chooseWork(Governor& milliseconds, Governor& units, const Needs& n, const thawBudget& b,
+                                   int subStepsWanted) const {
+    const int workers = tasks.workerCount();
+    if (b.mode == thawBudget_milliseconds)
+        return milliseconds.choose(n, b.milliseconds, b.least, b.most, subStepsWanted, workers);
+    if (b.mode == thawBudget_units)
+        return units.choose(n, b.units / kUnitsPerMs, b.least, b.most, subStepsWanted, workers);
+    return {b.work, 0, workers};
+}
+
 thawPlan World::previewPlan(const thawBudget& budget) const {
     Needs n = needs();
-    thawWork work = budget.work;
-    float predicted = 0;
-    if (budget.mode == thawBudget_milliseconds) {
-        Governor governor = governor_; // choosing moves its memory; a preview must not
-        const int wanted = std::max(subStepsWanted(1.0f / 60), static_cast<int>(budget.work.leastSubSteps));
-        work = governor.choose(n, budget.milliseconds, budget.work, wanted, predicted);
-    }
-    n.heatDue = heatDue(work);
-    thawPlan p = makePlan(n, work);
-    p.predictedMs = predicted;
+    const int wanted = subStepsWanted(1.0f / 60);
+    Governor milliseconds = governor_, units = units_; // choosing moves their memory; a preview must not
+    const Governor::Choice c = chooseWork(milliseconds, units, n, budget, wanted);
+    n.heatDue = heatDue(c.work);
+    thawPlan p = makePlan(n, c.work);
+    p.predictedMs = budget.mode == thawBudget_milliseconds ? c.predictedMs : 0;
+    p.units = kUnitsPerMs * units_.predict(n, c.work, wanted);
+    p.workers = c.workers;
     return p;
 }
 
@@ -460,7 +491,10 @@ MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work) {
             &bonds_,
             rigid_.any() ? &rigid_ : nullptr,
             rigid_.any() ? &rigidLiquid_ : nullptr,
-            reference_.point.empty() ? nullptr : &reference_};
+            reference_.point.empty() ? nullptr : &reference_,
+            &safePoints_,
+            Governor::kLeastViscosity,
+            Governor::kLeastPressure};
 }
 
 BondFrame World::bondFrame(float dt) {
@@ -911,7 +945,7 @@ uint64_t World::stateHash() const {
     }
     bytes(reference_.point.data(), reference_.point.size() * sizeof(Vec4));
     bytes(reference_.slope.data(), reference_.slope.size() * sizeof(Vec4));
-    return heat_.hash(rigidLiquid_.hash(rigid_.hash(bonds_.hash(h))));
+    return units_.hash(heat_.hash(rigidLiquid_.hash(rigid_.hash(bonds_.hash(h)))));
 }
 
 thawLedger World::ledger() const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/safe_points.h"
 #include "base/tasks.h"
 #include "geometry/colliders.h"
 #include "geometry/mesh_fill.h"
@@ -17,6 +18,7 @@
 #include "particles/material.h"
 #include "particles/particles.h"
 #include "surface/surface.h"
+#include "world/governor.h"
 #include "world/plan.h"
 
 #include <string>
@@ -88,6 +90,9 @@ private:
         int surface, bad, undercooled;
     };
     Needs needs() const;
+    // What this step runs: the host's work, or a governor's choice.
+    Governor::Choice chooseWork(Governor& milliseconds, Governor& units, const Needs& needs, const thawBudget& budget,
+                                int subStepsWanted) const;
     bool heatDue(const thawWork& work) const;
     int subStepsWanted(float dt) const;
     void refreshNeighbors();
@@ -132,7 +137,8 @@ private:
     };
     std::vector<PointRange> bodyPoints_; // per body
     std::vector<uint8_t> coarsestOf_;    // per body, its coarsestLevel
-    Governor governor_;
+    Governor governor_{Governor::Prices::learnt}, units_{Governor::Prices::fixed};
+    SafePoints safePoints_;
     Array<float> volume_, invDensity_;
     Array<Totals> blockTotals_;
 
