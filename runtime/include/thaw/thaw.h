@@ -549,6 +549,11 @@ typedef struct thawParticleView {
     const uint8_t* levels;         /* mass 2^level of the finest, 0..3 */
 } thawParticleView;
 THAW_API void thawWorld_GetParticles(const thawWorld* world, thawParticleView* out);
+/* Extended local feature size of every particle, m, in the order of the view: how near the surface is, plus how thick
+ * the melt is there (distance of the surface to its medial axis; Adams et al. 2007). About 1 spacing in films and drips,
+ * 32 spacings at the most, right within a spacing. Takes a neighbour search: for pictures and tools. Changes nothing
+ * that a step depends on. The array belongs to the world, until the next call of this or a step. */
+THAW_API thawResult thawWorld_GetFeatureSizes(thawWorld* world, const float** out);
 
 /* A piece of solid that nothing anchors: cut loose by melting, or a body that stands free. It falls, lands, is pushed
  * and floats as one rigid body until it melts. */

@@ -730,6 +730,14 @@ void thawWorld_GetParticles(const thawWorld* world, thawParticleView* out) {
     out->levels = p.level.data();
 }
 
+thawResult thawWorld_GetFeatureSizes(thawWorld* world, const float** out) {
+    if (out) *out = nullptr;
+    return guarded(world, [&](World& w, Check& c) {
+        if (!out) c.fail(thawResult_invalidArgument, "out: is NULL");
+        if (c.ok()) *out = w.featureSizes();
+    });
+}
+
 void thawInitSurfaceDef(thawSurfaceDef* def) {
     if (!def) return;
     *def = thawSurfaceDef{};

@@ -66,7 +66,9 @@ uint8_t Levels::wantOfSolid(const LevelFrame& f, int row, const float* flux) con
 uint8_t Levels::wantOfLiquid(const LevelFrame& f, int row) const {
     const Particles& p = f.particles;
     const size_t i = static_cast<size_t>(row);
-    if (f.coarsestOf[p.body[i]] == 0 || (p.flags[i] & kSurface) || f.neighbors.volumeFraction[i] < kInside) return 0;
+    if (!f.coarsestOf || f.coarsestOf[p.body[i]] == 0 || (p.flags[i] & kSurface) ||
+        f.neighbors.volumeFraction[i] < kInside)
+        return 0;
     float nearest = static_cast<float>(kFar);
     forNeighbors(f.neighbors, row, [&](uint32_t j) {
         if (j >= static_cast<uint32_t>(p.count)) return false;
@@ -80,6 +82,9 @@ uint8_t Levels::wantOfLiquid(const LevelFrame& f, int row) const {
 
 void Levels::choose(const LevelFrame& f, const float* flux, bool all) {
     Particles& p = f.particles;
+    if (f.coarsestOf)
+        features_.relax({p, f.neighbors, f.tasks, f.spacing, p.moverCount}, static_cast<uint32_t>(f.step % kTurns),
+                        kTurns);
     next_.resizeRaw(static_cast<size_t>(p.count));
     const auto step = static_cast<uint32_t>(f.step % kFineTurns);
     f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {

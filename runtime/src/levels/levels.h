@@ -4,6 +4,7 @@
 
 #include "base/tasks.h"
 #include "geometry/colliders.h"
+#include "levels/feature_size.h"
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
 #include "particles/particles.h"
@@ -24,7 +25,7 @@ struct LevelFrame {
     uint32_t& nextId;
     const Collider* colliders;
     int colliderCount;
-    const uint8_t* coarsestOf; // per body: levels that its liquid may have where it is deep
+    const uint8_t* coarsestOf; // per body: levels that its liquid may have where it is thick; null: nobody's may
     const Vec4* errors;        // per mover, w: density error that the pressure saw; to apply() only
 };
 
@@ -45,7 +46,7 @@ class Levels {
 public:
     static constexpr uint8_t kFar = 255; // of Particles::want: nothing near
 
-    explicit Levels(Allocator& allocator) : next_(allocator), gone_(allocator) {}
+    explicit Levels(Allocator& allocator) : next_(allocator), gone_(allocator), features_(allocator) {}
 
     // Demand of the rows (Particles::want), of a fourth of them in each step: it spreads by a support every fourth
     // step. flux: W that a row takes from sources, or null. all: of every row.
@@ -70,6 +71,7 @@ private:
 
     int rows_ = 0, room_ = 0; // that the lists know; that may still come
     Array<uint8_t> next_, gone_;
+    FeatureSize features_;
 };
 
 } // namespace thaw

@@ -17,6 +17,12 @@ enum ParticleFlag : uint8_t {
     kUnseeded = 1 << 4 // molten through, of a material that undercools, and no solid touches it: stays liquid
 };
 
+// What Levels knows of how near the surface and the medial axis are, in eighths of a spacing (FeatureSize).
+struct Feature {
+    uint8_t depth, medial, size, unused;
+    bool operator==(const Feature&) const = default;
+};
+
 // Every per-particle quantity that lives from step to step: one list, used by sort, hash and removal alike.
 //   type, name: meaning
 #define THAW_PARTICLE_FIELDS(X)                                                                                        \
@@ -43,6 +49,7 @@ enum ParticleFlag : uint8_t {
     X(uint8_t, material)                                                                                               \
     X(uint8_t, level)   /* mass 2^level of the finest */                                                               \
     X(uint8_t, want)    /* eighths of a spacing to what must be fine, of solids that could be coarse (Levels) */       \
+    X(Feature, feature) /* of what flows, where a body may be coarse */                                                \
     X(uint8_t, absorbs) /* 1 + 254 x painted absorptivity; 0: that of the material */                                  \
     X(uint8_t, flags)
 

@@ -3,6 +3,8 @@
 // What a world keeps about the filling of its bodies, and whom it tells.
 #include "world/world.h"
 
+#include <algorithm>
+
 namespace thaw {
 
 LevelFrame World::levelFrame(const thawWork& work) {
@@ -19,8 +21,12 @@ LevelFrame World::levelFrame(const thawWork& work) {
             nextId_,
             colliders.data(),
             static_cast<int>(colliders.size()),
-            coarsestOf_.data(),
+            mayBeCoarse() ? coarsestOf_.data() : nullptr,
             motion_.densityErrors()};
+}
+
+bool World::mayBeCoarse() const {
+    return std::any_of(coarsestOf_.begin(), coarsestOf_.end(), [](uint8_t coarsest) { return coarsest > 0; });
 }
 
 Vec3 World::refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume) {

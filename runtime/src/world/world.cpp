@@ -56,7 +56,8 @@ World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
       motion_(allocator), rigid_(allocator), rigidLiquid_(allocator), heat_(allocator), hold_(allocator),
       anchors_(allocator), bonds_(allocator), surface_(allocator), reference_(allocator), levels_(allocator),
-      volume_(allocator), invDensity_(allocator), blockTotals_(allocator), expanded_(allocator) {
+      volume_(allocator), invDensity_(allocator), featureSizes_(allocator), blockTotals_(allocator),
+      expanded_(allocator) {
     particles.allocate(d.maxParticles);
     const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
     volume_.resize(n), invDensity_.resize(n);
@@ -276,7 +277,7 @@ Needs World::needs() const {
         n.areaSources += strength != 0 && hasExtent(s.type);
     }
     n.timeScaleZero = def.thermalTimeScale == 0;
-    n.levels = anyCoarse_ || std::any_of(coarsestOf_.begin(), coarsestOf_.end(), [](uint8_t c) { return c > 0; });
+    n.levels = anyCoarse_ || mayBeCoarse();
     n.levelsChanged = levelsChanged_, n.full = full_;
     n.finestLevel = plan.work.finestLevel, n.coarsestLevel = plan.work.coarsestLevel;
     for (const Material& m : materials)
@@ -900,7 +901,10 @@ uint64_t World::stateHash() const {
         h = hashCombine(h, w ^ size);
     };
     const size_t n = static_cast<size_t>(particles.count);
-#define X(type, name) bytes(particles.name.data(), n * sizeof(type));
+    // Where no body may be coarse, nobody reads the features.
+    const bool levels = mayBeCoarse();
+#define X(type, name)                                                                                                  \
+    if (levels || !std::is_same_v<type, Feature>) bytes(particles.name.data(), n * sizeof(type));
     THAW_PARTICLE_FIELDS(X)
 #undef X
     bytes(&steps_, sizeof steps_);

@@ -65,6 +65,8 @@ public:
     thawLedger ledger() const;
     thawCounters counters() const;
     int pieces(thawPieceState* out, int capacity) const;
+    // Of all rows, m; for pictures and tools: it takes lists of its own and changes nothing that a step reads.
+    const float* featureSizes();
     void wakePieces() { rigid_.wakeAll(); }
 
     thawWorldDef def; // with hooks and the settings that may change
@@ -120,6 +122,7 @@ private:
     Vec3 refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume);
     void forget(size_t slot);
     void expandForSurface();
+    bool mayBeCoarse() const; // some body
 
     Neighbors neighbors_;
     Motion motion_;
@@ -140,6 +143,7 @@ private:
     Governor governor_{Governor::Prices::learnt}, units_{Governor::Prices::fixed};
     SafePoints safePoints_;
     Array<float> volume_, invDensity_;
+    Array<float> featureSizes_; // of the last look that a host took
     Array<Totals> blockTotals_;
 
     bool listsStale_ = true;
