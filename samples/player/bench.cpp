@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench_levels.h"
 #include "bench_registry.h"
+#include "busy.h"
 #include "run.h"
 
 #include <algorithm>
@@ -17,6 +18,7 @@ struct Options {
     int runs = 3;
     std::string budgets, threads = "1", work, out;
     double units = -1;
+    int busy = 0;
     double seconds = 0.0;
     bool quiet = false;
 };
@@ -41,6 +43,8 @@ int benchScenes(const Options& o) {
         if (!file) throw RunError(scene::oneLine(o.out, 400) + ": cannot be written");
     }
     std::ostream& out = o.out.empty() ? std::cout : file;
+    checkRange("--busy", o.busy, 0, 64);
+    const Busy busy(o.busy);
     out << "scene,particles,threads,budget,seconds,run,p50_ms,p95_ms,p99_ms,max_ms,frames,frames_over,melted,"
            "heat_share,status,hash\n";
     bool differs = false;
@@ -115,12 +119,14 @@ void addBench(CLI::App& app, int& exitCode) {
     command->add_option("--work-units", o->units, "Budget by the fixed price list instead; hashes must then agree")
         ->excludes(budgets);
     command->add_option("--threads", o->threads, "Thread counts, with commas between")->capture_default_str();
+    command->add_option("--busy", o->busy, "Threads beside it that take a core each")->capture_default_str();
     command->add_option("--seconds", o->seconds, "Time of the game, s (default: what the scene says)");
     command->add_option("--out", o->out, "File for the lines (default: stdout)");
     command->add_flag("--quiet", o->quiet, "No progress on stderr");
     command->callback([=, &exitCode] { exitCode = benchScenes(*o); });
 
     addBenchLevels(*bench, exitCode);
+    addBenchBudget(*bench, exitCode);
     std::vector<BenchEntry> entries = benchEntries();
     std::sort(entries.begin(), entries.end(),
               [](const BenchEntry& a, const BenchEntry& b) { return std::string(a.name) < b.name; });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 //
-// `thaw bench levels` and `thaw bench budget`: what coarse particles save and cost, and how well a budget is kept.
+// `thaw bench levels`: what coarse particles save and cost.
 #include "bench_levels.h"
 
 #include "run.h"
@@ -19,7 +19,6 @@ namespace {
 
 struct Options {
     std::vector<std::string> scenes;
-    std::string budgets = "2,4,8";
     int threads = defaultThreads(), coarsest = 3, frames = 0, runs = 3;
     bool quiet = false;
 };
@@ -142,51 +141,6 @@ int benchLevels(const Options& o) {
     return sound ? kExitOk : kExitFailed;
 }
 
-int benchBudget(const Options& o) {
-    checkRange("--threads", o.threads, 1, 64);
-    const std::vector<double> budgets = parseNumbers("--budgets", o.budgets, 0.05, 1e4, "ms", 1, 64);
-    std::cout << "scene,budget_ms,threads,frames,frames_over_percent,p99_over_budget,p50_over_budget_melting,melted,"
-                 "finest_level_most,particles,status\n";
-    bool sound = true;
-    for (const std::string& path : o.scenes) {
-        scene::Scene scene = scene::loadScene(path);
-        for (scene::Body& b : scene.bodies) b.coarsestLevel = std::max(b.coarsestLevel, o.coarsest);
-        const scene::SceneMeshes meshes = scene::loadMeshes(scene);
-        for (const double ms : budgets) {
-            const thawBudget budget = makeBudget(scene, ms, "");
-            const scene::SceneWorld built = scene::buildWorld(scene, meshes, o.threads);
-            thawWorld* world = built.world.get();
-            Report report;
-            report.name = scene.name, report.threads = o.threads, report.budget = budget, report.limitMs = float(ms);
-            const int frames = o.frames > 0 ? o.frames : 1800;
-            Progress progress(report.name, frames, o.quiet);
-            std::vector<double> melting;
-            int coarsest = 0;
-            for (int f = 1; f <= frames; ++f) {
-                if (timedStep(world, budget, report) & thawStep_refused)
-                    throw RunError(std::string("a step was refused: ") + thawWorld_GetLastError(world));
-                thawPlan plan;
-                thawWorld_GetPlan(world, &plan);
-                coarsest = std::max(coarsest, plan.work.finestLevel);
-                thawProfile profile;
-                thawWorld_GetProfile(world, &profile);
-                if (report.counters().moving > 0) melting.push_back(double(profile.step));
-                progress.frame(f, report);
-            }
-            report.finish(world);
-            sound &= report.faults().empty();
-            std::sort(melting.begin(), melting.end());
-            std::cout << formatted("%s,%g,%d,%d,%.2f,%.2f,%.2f,%.4f,%d,%d,%u\n", path.c_str(), ms, o.threads, frames,
-                                   100.0 * double(report.framesOver()) / double(frames), report.percentile(0.99) / ms,
-                                   melting.empty() ? 0.0 : melting[melting.size() / 2] / ms,
-                                   double(report.counters().meltedFraction), coarsest, report.counters().particles,
-                                   report.statusUnion())
-                      << std::flush;
-        }
-    }
-    return sound ? kExitOk : kExitFailed;
-}
-
 } // namespace
 
 void addBenchLevels(CLI::App& bench, int& exitCode) {
@@ -202,10 +156,6 @@ void addBenchLevels(CLI::App& bench, int& exitCode) {
         "levels", "One CSV line a scene: particles of mixed levels against the finest everywhere, in work units");
     common(levels);
     levels->callback([=, &exitCode] { exitCode = benchLevels(*o); });
-    CLI::App* budget = bench.add_subcommand("budget", "One CSV line a scene and budget: how well it is kept and used");
-    common(budget);
-    budget->add_option("--budgets", o->budgets, "Budgets in ms, with commas between")->capture_default_str();
-    budget->callback([=, &exitCode] { exitCode = benchBudget(*o); });
 }
 
 } // namespace thaw::player

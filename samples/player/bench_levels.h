@@ -7,5 +7,6 @@
 namespace thaw::player {
 
 void addBenchLevels(CLI::App& bench, int& exitCode);
+void addBenchBudget(CLI::App& bench, int& exitCode); // and rest
 
 } // namespace thaw::player

@@ -30,6 +30,8 @@ public:
     double percentile(double share) const;
     size_t framesOver() const;
     uint32_t statusUnion() const;
+    uint32_t lastStatus() const { return lastStatus_; }
+    double lastMilliseconds() const { return milliseconds_.empty() ? 0 : milliseconds_.back(); }
     const thawCounters& counters() const { return counters_; }
     uint64_t hash() const { return hash_; }
     // What is wrong with the run, one line a fault; empty when it is sound.

@@ -196,6 +196,8 @@ struct SceneWorld {
     std::vector<thawHeatSourceId> heatSources;
 };
 
+thawHeatSourceDef sourceDef(const HeatSource& source);
+
 // Throws InputError when the scene asks for what cannot be, std::runtime_error when memory is short.
 // threads: range 1..64.
 SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads);

@@ -125,6 +125,22 @@ double estimateParticles(const TriMesh& mesh, float scale, float spacing) {
     return std::abs(volumeOf(mesh)) * std::pow(double(scale) / spacing, 3.0);
 }
 
+thawHeatSourceDef sourceDef(const HeatSource& h) {
+    thawHeatSourceDef d;
+    thawInitHeatSourceDef(&d);
+    d.position = h.position;
+    d.power = h.power;
+    d.radius = h.radius;
+    d.enabled = h.enabled;
+    d.type = h.type;
+    d.rotation = h.rotation;
+    d.size = {0.5f * h.size.x, d.size.y, 0.5f * h.size.z};
+    d.temperature = h.temperature;
+    d.emissivity = h.emissivity;
+    d.irradiance = h.irradiance;
+    return d;
+}
+
 SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads) {
     SceneWorld out;
     thawWorldDef def;
@@ -231,19 +247,7 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
         out.bodyReports.push_back(report);
     }
     for (size_t i = 0; i < scene.heatSources.size(); ++i) {
-        const HeatSource& h = scene.heatSources[i];
-        thawHeatSourceDef d;
-        thawInitHeatSourceDef(&d);
-        d.position = h.position;
-        d.power = h.power;
-        d.radius = h.radius;
-        d.enabled = h.enabled;
-        d.type = h.type;
-        d.rotation = h.rotation;
-        d.size = {0.5f * h.size.x, d.size.y, 0.5f * h.size.z};
-        d.temperature = h.temperature;
-        d.emissivity = h.emissivity;
-        d.irradiance = h.irradiance;
+        const thawHeatSourceDef d = sourceDef(scene.heatSources[i]);
         thawHeatSourceId id{};
         const thawResult result = thawCreateHeatSource(raw, &d, &id);
         if (result != thawResult_ok) refused(scene, placeOf("heatSources", i), result, raw);

@@ -170,3 +170,45 @@ TEST_CASE("tasks: workers round and flush as the caller does") {
     }
 }
 #endif
+
+TEST_CASE("tasks: fewer workers do the same, and those that are left out stay out") {
+    Tasks tasks(ownPool(4));
+    Host host;
+    Tasks hosted(host.system(4));
+    for (Tasks* t : {&tasks, &hosted})
+        for (const int used : {3, 1, 2, 4, 99, 0}) {
+            t->useWorkers(used);
+            const int most = std::clamp(used, 1, 4);
+            std::atomic<int> outsiders{0};
+            for (int k = 0; k < 20; ++k) {
+                std::vector<int> hits(500, 0);
+                t->forBlocks(500, 10, [&](int begin, int end, int, int worker) {
+                    outsiders += worker >= most;
+                    for (int i = begin; i < end; ++i) ++hits[static_cast<size_t>(i)];
+                });
+                CHECK(std::count(hits.begin(), hits.end(), 1) == 500);
+            }
+            CHECK(outsiders == 0);
+        }
+    CHECK(tasks.takeStalledMs() >= 0);
+    CHECK(tasks.takeStalledMs() == 0);
+}
+
+TEST_CASE("tasks: what the caller waits for a worker that does not get on is counted") {
+    Tasks tasks(ownPool(2));
+    float stalled = 0;
+    for (int k = 0; k < 20 && stalled < 4; ++k) { // the worker may come too late to take its block
+        std::atomic<bool> inside{false};
+        tasks.forBlocks(2, 1, [&](int, int, int, int worker) {
+            if (worker == 1) {
+                inside = true;
+                std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            } else {
+                const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+                while (!inside && std::chrono::steady_clock::now() < until) std::this_thread::yield();
+            }
+        });
+        stalled += tasks.takeStalledMs();
+    }
+    CHECK(stalled >= 4);
+}
