@@ -155,6 +155,119 @@ TEST_CASE("levels: what was split for nothing merges back to the same particles"
     CHECK(f.ledger().energyError <= 1e-6);
 }
 
+TEST_CASE("levels: an elastic body of coarse particles melts as one of fine ones does, which it is where it melts") {
+    struct Jelly : WorldFixture {
+        explicit Jelly(int coarsest, int workers = 2) {
+            def.tasks.workerCount = workers, def.thermalTimeScale = 60;
+            create();
+            thawMaterialDef m;
+            thawInitMaterialDef(&m, thawMaterial_wax);
+            m.youngModulus = 5e4f;
+            addMaterial(m), addFloor();
+            const Shape s = boxShape({-0.016f, 0, -0.016f}, {0.016f, 0.048f, 0.016f});
+            thawBodyDef d;
+            thawInitBodyDef(&d);
+            d.material = material, d.mesh = s.mesh(), d.coarsestLevel = coarsest;
+            thawBodyId id;
+            REQUIRE(thawCreateBody(world, &d, &id, nullptr) == thawResult_ok);
+            addSource({0, 0.06f, 0}, 120);
+        }
+    };
+    Jelly fine(0), coarse(3);
+    CHECK(coarse.counters().particles * 4 <= fine.counters().particles);
+    for (const double tolerance : {0.02, 0.05, 0.08}) {
+        fine.step(60), coarse.step(60);
+        const double melted = static_cast<double>(fine.counters().meltedFraction);
+        CHECK(static_cast<double>(coarse.counters().meltedFraction) == doctest::Approx(melted).epsilon(tolerance));
+    }
+    CHECK(fine.counters().meltedFraction > 0.03f);
+    CHECK(coarse.counters().particles < fine.counters().particles * 9 / 10);
+    CHECK(coarse.ledger().massError <= 1e-6);
+    CHECK(coarse.ledger().energyError <= 1e-6);
+    const thawParticleView v = coarse.particles();
+    for (int i = 0; i < v.count; ++i)
+        if (v.liquidFractions[i] > 0) CHECK(v.levels[i] == 0);
+    uint64_t first = 0;
+    for (const int workers : {1, 2, 4}) {
+        Jelly j(3, workers);
+        j.step(90);
+        const uint64_t hash = thawWorld_GetStateHash(j.world);
+        if (workers == 1) first = hash;
+        CHECK(hash == first);
+    }
+}
+
+TEST_CASE("levels: an elastic body that spins and splits spins on, and its surface turns with it") {
+    WorldFixture f;
+    f.def.thermalTimeScale = 0, f.def.gravity = {0, 0, 0};
+    f.create();
+    thawMaterialDef m;
+    thawInitMaterialDef(&m, thawMaterial_wax);
+    m.youngModulus = 2e5f;
+    f.addMaterial(m);
+    const Shape s = boxShape({-0.016f, -0.012f, -0.008f}, {0.016f, 0.012f, 0.008f});
+    thawBodyDef d;
+    thawInitBodyDef(&d);
+    d.material = f.material, d.mesh = s.mesh(), d.coarsestLevel = 3, d.anchored = false;
+    d.velocity = {0.2f, 0.1f, 0}, d.angularVelocity = {0, 0, 6};
+    thawBodyId id;
+    REQUIRE(thawCreateBody(f.world, &d, &id, nullptr) == thawResult_ok);
+    const int coarse = f.counters().particles;
+    // rad/s about z, and the momentum.
+    const auto spin = [&](double(&momentum)[3]) {
+        const thawParticleView v = f.particles();
+        double mass = 0, x[3] = {}, u[3] = {}, turns = 0, inertia = 0;
+        for (int i = 0; i < v.count; ++i)
+            for (int k = 0; k < 3; ++k) {
+                const double w = static_cast<double>(v.velocities[4 * i + 3]);
+                x[k] += w * static_cast<double>(v.positions[4 * i + k]), mass += k == 0 ? w : 0;
+                u[k] += w * static_cast<double>(v.velocities[4 * i + k]);
+            }
+        for (int i = 0; i < v.count; ++i) {
+            const double w = static_cast<double>(v.velocities[4 * i + 3]);
+            const double dx = static_cast<double>(v.positions[4 * i]) - x[0] / mass;
+            const double dy = static_cast<double>(v.positions[4 * i + 1]) - x[1] / mass;
+            turns +=
+                w * (dx * static_cast<double>(v.velocities[4 * i + 1]) - dy * static_cast<double>(v.velocities[4 * i]));
+            inertia += w * (dx * dx + dy * dy);
+        }
+        for (int k = 0; k < 3; ++k) momentum[k] = u[k];
+        return turns / inertia;
+    };
+    f.step(30);
+    double before[3], after[3];
+    const double was = spin(before);
+    CHECK(was > 5);
+    // The corners of a block of 32 x 24 mm, wherever it has turned to: the surface of coarse particles that lay as the
+    // filling put them would stand out or in.
+    thawSurfaceDef sd;
+    thawInitSurfaceDef(&sd);
+    const auto outermost = [&] {
+        thawSurfaceView v;
+        REQUIRE(thawWorld_ExtractSurface(f.world, &sd, &v) == thawResult_ok);
+        thawBodyState state;
+        REQUIRE(thawBody_GetState(f.world, id, &state) == thawResult_ok);
+        double sum = 0;
+        for (int i = 0; i < v.vertexCount; ++i)
+            sum += std::hypot(static_cast<double>(v.positions[3 * i] - state.center.x),
+                              static_cast<double>(v.positions[3 * i + 1] - state.center.y));
+        return sum / v.vertexCount;
+    };
+    const double wide = outermost();
+    thawBodyState now;
+    REQUIRE(thawBody_GetState(f.world, id, &now) == thawResult_ok);
+    const thawBrush brush{now.center, 1, 0};
+    int painted = 0;
+    REQUIRE(thawBody_PaintAbsorptivity(f.world, id, &brush, 0.7f, &painted) == thawResult_ok);
+    REQUIRE(f.counters().particles >= 7 * coarse);
+    CHECK(outermost() == doctest::Approx(wide).epsilon(0.002));
+    CHECK(spin(after) == doctest::Approx(was).epsilon(0.01));
+    for (int k = 0; k < 3; ++k) CHECK(std::abs(after[k] - before[k]) <= 1e-6 * std::hypot(before[0], before[1]));
+    f.step(5);
+    CHECK(spin(after) == doctest::Approx(was).epsilon(0.03));
+    for (int k = 0; k < 3; ++k) CHECK(std::abs(after[k] - before[k]) <= 1e-5 * std::hypot(before[0], before[1]));
+}
+
 TEST_CASE("levels: the same bits on any number of threads") {
     uint64_t first = 0;
     for (int workers : {1, 2, 3}) {

@@ -158,11 +158,11 @@ TEST_CASE("levels: ten thousand splits and merges at random keep mass, momentum,
         CHECK(after.energy == doctest::Approx(before.energy).epsilon(1e-12));
         CHECK(drift <= 1e-6 * before.mass * 0.3);
         for (const double m : after.moment) CHECK(std::abs(m) <= 1e-4 * before.mass * static_cast<double>(kSpacing));
-        for (size_t k = 0; k < static_cast<size_t>(b.particles.count);)
-            if (!Levels::splitFully({b.particles, b.neighbors, b.reference, b.materials.data(), b.tasks, kSpacing, 0, 3,
-                                     1, 0, b.nextId, nullptr, 0, nullptr, nullptr},
-                                    k))
-                ++k;
+        std::vector<uint32_t> rows(static_cast<size_t>(b.particles.count));
+        for (uint32_t k = 0; k < rows.size(); ++k) rows[k] = k;
+        CHECK(b.levels.splitFully({b.particles, b.neighbors, b.reference, b.materials.data(), b.tasks, kSpacing, 0, 3,
+                                   1, 0, b.nextId, nullptr, 0, nullptr, nullptr},
+                                  rows.data(), rows.size()));
         REQUIRE(b.particles.count == kEdge * kEdge * kEdge);
         b.check();
         float farthest = 0;

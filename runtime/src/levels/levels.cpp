@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "levels/levels.h"
 
+#include "motion/bonds.h"
+
 #include <algorithm>
 
 namespace thaw {
@@ -14,8 +16,6 @@ constexpr uint32_t kTurns = 4, kFineTurns = 16;
 constexpr float kUnits = 8;
 // From here on, in spacings from where it must be the finest, a particle may be of level 1, 2, 3.
 constexpr float kBand[kHighestLevel] = {2, 3.25f, 4.75f};
-// What merged would split again at once if nothing lay between.
-constexpr uint8_t kMergeMargin = static_cast<uint8_t>(0.75f * kUnits);
 // Largest difference of temperature over a particle, as a share of what it lacks to the solidus. The candle's melted
 // mass over 6 s is within what moving its flame by 0.01 mm changes (1.2 %) with 0.15, 0.3 and 0.4, 2.5 % off with 1.
 constexpr float kResolve = 0.3f;
@@ -24,16 +24,16 @@ constexpr float kResolve = 0.3f;
 constexpr float kLatentShare = 0.02f;
 constexpr int kMostMerges = 128; // in a step
 
-int levelOf(int want) {
-    int level = 0;
-    while (level < kHighestLevel && static_cast<float>(want) >= kBand[level] * kUnits) ++level;
-    return level;
-}
-
 // The share of a support that is filled from which a liquid is inside. Less is missing at no surface, nor at a wall.
 constexpr float kInside = 0.91f;
 
 } // namespace
+
+int Levels::levelOf(int want) {
+    int level = 0;
+    while (level < kHighestLevel && static_cast<float>(want) >= kBand[level] * kUnits) ++level;
+    return level;
+}
 
 uint8_t Levels::wantOfSolid(const LevelFrame& f, int row, const float* flux) const {
     const Particles& p = f.particles;
@@ -73,7 +73,8 @@ uint8_t Levels::wantOfLiquid(const LevelFrame& f, int row) const {
     forNeighbors(f.neighbors, row, [&](uint32_t j) {
         if (j >= static_cast<uint32_t>(p.count)) return false;
         const float d = length(p.position[j].xyz() - p.position[i].xyz());
-        const bool alike = !p.fixed(static_cast<int>(j)) && p.body[j] == p.body[i] && p.material[j] == p.material[i];
+        const bool alike =
+            !p.fixed(static_cast<int>(j)) && !p.bondSlot[j] && p.body[j] == p.body[i] && p.material[j] == p.material[i];
         nearest = std::min(nearest, (alike ? static_cast<float>(p.want[j]) : 0.0f) + d * (kUnits / f.spacing));
         return true;
     });
@@ -90,13 +91,13 @@ void Levels::choose(const LevelFrame& f, const float* flux, bool all) {
     f.tasks.forBlocks(p.count, kRowBlock, [&](int begin, int end, int, int) {
         for (int r = begin; r < end; ++r) {
             const size_t i = static_cast<size_t>(r);
-            const bool fixed = p.fixed(r);
-            if (fixed && !p.fine[i])
+            const bool solid = p.fixed(r) || p.bondSlot[i];
+            if (solid && !p.fine[i])
                 next_[i] = 0;
-            else if (!all && (p.id[i] ^ step) % (p.level[i] > 0 || !fixed ? kTurns : kFineTurns) != 0)
+            else if (!all && (p.id[i] ^ step) % (p.level[i] > 0 || !solid ? kTurns : kFineTurns) != 0)
                 next_[i] = p.want[i];
             else
-                next_[i] = fixed ? wantOfSolid(f, r, flux) : wantOfLiquid(f, r);
+                next_[i] = solid ? wantOfSolid(f, r, flux) : wantOfLiquid(f, r);
         }
     });
     std::copy(next_.begin(), next_.end(), p.want.begin());
@@ -126,13 +127,25 @@ void Levels::splitRow(const LevelFrame& f, size_t i, int to) {
     }
 }
 
-bool Levels::splitFully(const LevelFrame& f, size_t row) {
+bool Levels::splitFully(const LevelFrame& f, const uint32_t* rows, size_t count) {
     Particles& p = f.particles;
-    if (p.level[row] == 0 || !p.fine[row] || (1 << p.level[row]) - 1 > p.capacity - p.count) return false;
-    p.want[row] = 0; // and do not merge before the next look
-    splitRow(f, row, 0);
-    p.pad();
-    return true;
+    picked_.clear();
+    int room = p.capacity - p.count;
+    bool any = false;
+    for (size_t k = 0; k < count; ++k) {
+        const uint32_t i = rows[k];
+        const int more = (1 << p.level[i]) - 1;
+        if (p.level[i] == 0 || !p.fine[i] || more > room) continue;
+        room -= more, any = true;
+        p.want[i] = 0; // and do not merge before the next look
+        if (f.bonds && p.bondSlot[i])
+            picked_.push(i);
+        else
+            splitRow(f, i, 0);
+    }
+    splitPicked(f, true);
+    if (any) p.pad();
+    return any;
 }
 
 LevelResult Levels::apply(const LevelFrame& f) {
@@ -142,6 +155,7 @@ LevelResult Levels::apply(const LevelFrame& f) {
     gone_.resizeRaw(static_cast<size_t>(rows_));
     std::fill(gone_.begin(), gone_.end(), uint8_t{0});
     solids(f, result);
+    bonded(f, result);
     liquids(f, result);
     if (result.merged > 0) {
         size_t kept = 0;
@@ -162,7 +176,7 @@ void Levels::solids(const LevelFrame& f, LevelResult& result) {
     const auto step = static_cast<uint32_t>(f.step % kFineTurns);
     for (int r = 0; r < rows_; ++r) {
         const size_t i = static_cast<size_t>(r);
-        if (!p.fine[i] || gone_[i] || !p.fixed(r)) continue;
+        if (!p.fine[i] || gone_[i] || !p.fixed(r) || p.bondSlot[i]) continue;
         // What is fine has to be looked at anew before it merges.
         if (p.level[i] == 0 && f.finest == 0 && (p.id[i] ^ step) % kFineTurns != 0) continue;
         const int level = p.level[i], wanted = target(f, i);
@@ -197,8 +211,7 @@ bool Levels::mergeSolid(const LevelFrame& f, size_t i) {
         return false;
     });
     if (j == i || gone_[j] || p.level[j] != level || !p.fixed(static_cast<int>(j)) || !ready(j, 0) ||
-        p.piece[j] != p.piece[i] || p.anchor[j] != p.anchor[i] || p.absorbs[j] != p.absorbs[i] || p.bondSlot[i] ||
-        p.bondSlot[j])
+        p.piece[j] != p.piece[i] || p.anchor[j] != p.anchor[i] || p.absorbs[j] != p.absorbs[i] || p.bondSlot[j])
         return false;
     const Vec3 apart = f.reference.center(sibling, level) - f.reference.center(begin, level);
     const Vec3 xi = p.position[i].xyz(), xj = p.position[j].xyz();

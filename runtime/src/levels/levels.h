@@ -12,6 +12,8 @@
 
 namespace thaw {
 
+class Bonds;
+
 struct LevelFrame {
     Particles& particles;
     const Neighbors& neighbors; // of the rows as they are
@@ -27,6 +29,8 @@ struct LevelFrame {
     int colliderCount;
     const uint8_t* coarsestOf; // per body: levels that its liquid may have where it is thick; null: nobody's may
     const Vec4* errors;        // per mover, w: density error that the pressure saw; to apply() only
+    Bonds* bonds = nullptr;    // when there are elastic solids
+    float dt = 0;              // s, of the step
 };
 
 struct LevelResult {
@@ -42,27 +46,37 @@ struct LevelResult {
 // Liquid is fine at its surface, at walls, at solids and other liquids, and coarser with the same bands below, in
 // bodies that may be coarse. It splits in two where there is most room and merges with its nearest of the same kind, a
 // few at a time. (Levels of mass 2^l, by how far the surface is: thesis 3.4, Adams et al. 2007.)
+// Elastic solids are as other solids are, also while they move, but either the coarsest or the finest.
 class Levels {
 public:
     static constexpr uint8_t kFar = 255; // of Particles::want: nothing near
 
-    explicit Levels(Allocator& allocator) : next_(allocator), gone_(allocator), features_(allocator) {}
+    explicit Levels(Allocator& allocator)
+        : next_(allocator), gone_(allocator), picked_(allocator), groups_(allocator), features_(allocator) {}
 
     // Demand of the rows (Particles::want), of a fourth of them in each step: it spreads by a support every fourth
     // step. flux: W that a row takes from sources, or null. all: of every row.
     void choose(const LevelFrame& f, const float* flux, bool all);
     // Splits and merges. Rows are added behind the others and taken out: all lists are stale after it.
     LevelResult apply(const LevelFrame& f);
-    // Splits one row to the finest, whatever it wants: the others come behind the last row. False, and nothing is
-    // changed, when it cannot: it is no coarse one, or there is no room.
-    static bool splitFully(const LevelFrame& f, size_t row);
+    // Splits these rows to the finest, whatever they want: the others come behind the last row. Left as they are: what
+    // is not coarse, and what there is no room for. Whether any has split.
+    bool splitFully(const LevelFrame& f, const uint32_t* rows, size_t count);
 
 private:
+    // Eighths of a spacing. What merged would split again at once if nothing lay between.
+    static constexpr uint8_t kMergeMargin = 6;
     static void splitRow(const LevelFrame& f, size_t row, int to);
+    void splitPicked(const LevelFrame& f, bool fully);
+    static int levelOf(int want);
     int target(const LevelFrame& f, size_t row) const;
+    int targetOfBonded(const LevelFrame& f, size_t row) const;
+    void mergeGroups(const LevelFrame& f);
+    int mergeBonded(const LevelFrame& f, size_t row);
     uint8_t wantOfSolid(const LevelFrame& f, int row, const float* flux) const;
     uint8_t wantOfLiquid(const LevelFrame& f, int row) const;
     void solids(const LevelFrame& f, LevelResult& result);
+    void bonded(const LevelFrame& f, LevelResult& result);
     void liquids(const LevelFrame& f, LevelResult& result);
     bool mergeSolid(const LevelFrame& f, size_t row);
     void splitLiquid(const LevelFrame& f, size_t row);
@@ -71,6 +85,7 @@ private:
 
     int rows_ = 0, room_ = 0; // that the lists know; that may still come
     Array<uint8_t> next_, gone_;
+    Array<uint32_t> picked_, groups_; // rows with bonds: that split, and that merge by eights
     FeatureSize features_;
 };
 

@@ -19,12 +19,13 @@ constexpr float kLeastFill = 0.3f;
 
 Bonds::Bonds(Allocator& a)
     : stiffness(a), rest(a), groupOn(a), bonds_(a), count_(a), calm_(a), pressed_(a), borne_(a), rubbed_(a), fill_(a),
-      fillGoal_(a), rowOf_(a), free_(a), state_(a), strain_(a), touched_(a), queue_(a), colliderBounds_(a) {}
+      fillGoal_(a), rowOf_(a), free_(a), state_(a), strain_(a), touched_(a), queue_(a), colliderBounds_(a),
+      strainFit_(a), strainStamp_(a), watchStamp_(a), ownerOf_(a), parents_(a), changed_(a), newBonds_(a) {}
 
 void Bonds::reserve(int particles) {
     const size_t n = static_cast<size_t>(particles) + 1;
     if (rowOf_.size() >= n) return;
-    bonds_.resizeRaw(n * kMost);
+    bonds_.resizeRaw(n * kMostMixed);
     count_.assign(n, 0), calm_.assign(n, 0), pressed_.assign(n, 0), touched_.assign(n, 0);
     borne_.assign(n, {}), rubbed_.assign(n, 0), fill_.assign(n, 0), fillGoal_.assign(n, 0), rowOf_.assign(n, kNoRow);
     state_.resizeRaw(n), strain_.resizeRaw(n);
@@ -80,22 +81,23 @@ bool Bonds::bonded(uint32_t slot, uint32_t other) const {
     return false;
 }
 
-void Bonds::connect(uint32_t a, uint32_t b, float length) {
-    if (count_[a] >= kMost || count_[b] >= kMost) return;
-    bondsOf(a)[count_[a]++] = {b, length, 1}, bondsOf(b)[count_[b]++] = {a, length, 1};
+void Bonds::connect(uint32_t a, uint32_t b, float length, int most, float weight) {
+    if (count_[a] >= most || count_[b] >= most) return;
+    bondsOf(a)[count_[a]++] = {b, length, weight}, bondsOf(b)[count_[b]++] = {a, length, weight};
     touched_[a] = touched_[b] = 1;
 }
 
-void Bonds::refill(const Particles& p, const float* volume, uint32_t slot) {
-    const size_t row = rowOf_[slot];
+void Bonds::refill(const Particles& p, float volume, uint32_t slot) {
+    const uint32_t row = rowOf_[slot];
     const Bond* b = bondsOf(slot);
     float sum = 0;
-    for (int k = 0; k < count_[slot]; ++k) sum += b[k].weight * b[k].rest * b[k].rest;
+    for (int k = 0; k < count_[slot]; ++k)
+        sum += mixed(p, row, rowOf_[b[k].other]) * b[k].weight * b[k].rest * b[k].rest;
     constexpr float kBulk = 2.5f * kSupport; // times 1/h: 30 dx^2 / (12 dx^3)
     const float bulk = kBulk / p.position[row].w;
     // Of what the surface misses, the part across it misses least along it: 1 / fill makes a column of 8 x 8 particles
     // 11 % too stiff (sag), its root 1 %. On the lattice 1.21 is right for a face, where 1 / fill is 1.43.
-    fillGoal_[slot] = std::sqrt(std::max(sum / (12 * volume[row]), kLeastFill * bulk) * bulk);
+    fillGoal_[slot] = std::sqrt(std::max(sum / (12 * volume), kLeastFill * bulk) * bulk);
     if (!(fill_[slot] > 0)) fill_[slot] = fillGoal_[slot];
     touched_[slot] = 0;
 }

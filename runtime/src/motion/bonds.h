@@ -6,9 +6,11 @@
 #include "base/tasks.h"
 #include "base/types.h"
 #include "geometry/colliders.h"
+#include "motion/strain_fit.h"
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
 #include "particles/particles.h"
+#include "particles/reference.h"
 
 namespace thaw {
 
@@ -46,7 +48,10 @@ class Bonds {
 public:
     explicit Bonds(Allocator& allocator);
 
-    static constexpr int kMost = 26;        // bonds of a particle; the lattice has 18
+    static constexpr int kMost = 26; // bonds of a particle; the lattice has 18
+    // Of one that is coarse, or has a coarse neighbour: 48 of the finest are within reach of one of eight times their
+    // mass.
+    static constexpr int kMostMixed = 48;
     static constexpr float kReach = 1.5f;   // spacings
     static constexpr float kContact = 1.0f; // spacings; solids without a bond push each other from here on
 
@@ -74,12 +79,39 @@ public:
         float meanStrain; // a third of the change of volume
         float bondMean;   // of its bonds' strains, as they weigh in the pressure
     };
+    // Twice the stress times the volume, J, and the sum of stiffness r rest.
+    struct Virial {
+        float xx, yy, zz, xy, yz, zx, all;
+        void add(float share, const Virial& o) {
+            xx += share * o.xx, yy += share * o.yy, zz += share * o.zz;
+            xy += share * o.xy, yz += share * o.yz, zx += share * o.zx;
+        }
+    };
     // Of a row with bonds; valid from lay() to the next sort.
+    Virial virial(const BondFrame& f, uint32_t row) const { return virial(f.particles, f.materials, row); }
     Stress stress(const BondFrame& f, uint32_t row) const;
 
     // Valid from lay() to the next sort.
     Array<float> stiffness, rest; // per entry of groups that are on: N/m, m; 0: no spring
     Array<uint8_t> groupOn;       // per mover group: some row of it has a slot
+
+    // Coarse particles of elastic solids (bonds_levels.cpp). After a step: their points in the reference, and the
+    // slopes of what lies beside them, go with what is around them.
+    void deform(const BondFrame& f, Reference& reference);
+    // Rows that are about to split, at the positions of now: the strain and the gradients that their parts will have.
+    void beforeSplits(const Particles& p, const Material* materials, const uint32_t* rows, size_t count);
+    // The one with that place among them has split: `rows` are its parts, each with the slot of the whole still. They
+    // get bonds of their own, with the stress that was, and move on as it did.
+    void split(Particles& p, const Reference& reference, size_t place, const uint32_t* rows, size_t count);
+    // Whether these rows are the parts of one and may be one again: in one piece, bent no more than it could tell,
+    // calm.
+    bool mayUnite(const Particles& p, const Reference& reference, const uint32_t* rows, size_t count, float dt) const;
+    // Groups of `size` rows that are about to be one each.
+    void beforeMergers(const Particles& p, const Material* materials, const uint32_t* rows, size_t count, size_t size);
+    // The group of that place is one now, rows[0], where it has come to and with its mass: the others go.
+    void unite(Particles& p, const Reference& reference, size_t place, const uint32_t* rows, size_t size);
+    // After splits and mergers: stiffness and stress of what came to be.
+    void settleBonds(const Particles& p, const Material* materials);
 
     // N/m, of a layer of the solid at this row: as what presses on its surface meets it.
     float stiffnessOfLayer(const BondFrame& f, uint32_t row) const;
@@ -111,16 +143,56 @@ private:
     static constexpr uint32_t kNoRow = ~0u;
     static constexpr uint8_t kNewborn = 255; // calm_ of what was never looked at
 
-    Bond* bondsOf(uint32_t slot) { return bonds_.data() + static_cast<size_t>(slot) * kMost; }
-    const Bond* bondsOf(uint32_t slot) const { return bonds_.data() + static_cast<size_t>(slot) * kMost; }
+    // What a row that splits leaves to its parts.
+    struct Parent {
+        SmallStrain strain;
+        float slope[6][3]; // 1/m, of the strain
+        Tensor3 velocity;  // 1/s, its gradient
+        Virial virial;
+    };
+    // Rows that came to be out of one, or of several, which bore that virial together; or one beside them.
+    struct Changed {
+        uint32_t rows[8], count, slot; // of the first
+        bool beside;
+        float across; // new bonds of what lies beside
+        Virial virial, lacks;
+    };
+    struct NewBond {
+        uint32_t a, b; // slots
+    };
+    struct Kept { // of slots that go, for those that come
+        Bond bonds[kMostMixed * 8];
+        int count = 0;
+        uint8_t calm = 0, pressed = 0;
+        Vec3 borne;
+        float rubbed = 0;
+    };
+
+    Bond* bondsOf(uint32_t slot) { return bonds_.data() + static_cast<size_t>(slot) * kMostMixed; }
+    const Bond* bondsOf(uint32_t slot) const { return bonds_.data() + static_cast<size_t>(slot) * kMostMixed; }
+    // Springs across levels, of all others: see kMixed.
+    static float mixed(const Particles& p, uint32_t i, uint32_t j) { return p.level[i] == p.level[j] ? 1.0f : kMixed; }
+    // The lattice and one of twice its spacing, half a spacing of each apart: bonds across them (12 per coarse one) and
+    // those within would make up 1.11 times the stiffness of either one, and the layer between 1.26 times. With this
+    // both are 1.01: 3/4 of each spring makes the sums of rest^2 those of the lattices.
+    static constexpr float kMixed = 0.75f;
     void reserve(int particles);
     void mapRows(const Particles& p);
     uint32_t take(Particles& p, uint32_t row);
     void drop(uint32_t slot);
     void forget(uint32_t slot, uint32_t other);
     bool bonded(uint32_t slot, uint32_t other) const;
-    void connect(uint32_t a, uint32_t b, float rest);
-    void refill(const Particles& p, const float* volume, uint32_t slot);
+    void connect(uint32_t a, uint32_t b, float rest, int most = kMost, float weight = 1);
+    void refill(const Particles& p, float volume, uint32_t slot);
+    const SmallStrain& strainOf(const Particles& p, uint32_t slot);
+    void rebond(const Particles& p, const Reference& reference, uint32_t a, uint32_t b, float weight);
+    bool deformation(const Particles& p, const Reference& reference, uint32_t row, Tensor3& f, Tensor3& rotation) const;
+    void watch(const Particles& p, const Material* materials, uint32_t slot);
+    void keep(uint32_t slot, bool first);
+    void restore(uint32_t slot, float share);
+    Virial virial(const Particles& p, const Material* materials, uint32_t row) const;
+    float relaxed(const Particles& p, uint32_t a, uint32_t b);
+    void afterUniting(Particles& p, const Reference& reference, uint32_t row);
     Elastic elastic(const Material* materials, const Particles& p, uint32_t row) const;
     static float pairStiffness(const Elastic& a, const Elastic& b);
     static float contactStiffness(const Elastic& a, const Elastic& b, float spacing);
@@ -158,6 +230,13 @@ private:
     Array<uint8_t> touched_;       // per slot: its bonds changed in number or weight
     Array<uint32_t> queue_;        // rows, of wakeBefore
     Array<Box> colliderBounds_;
+    Array<SmallStrain> strainFit_; // per slot, where strainStamp_ is stamp_; of rows that split and those around them
+    Array<uint32_t> strainStamp_, watchStamp_, ownerOf_; // watched: its virial shall stay
+    uint32_t stamp_ = 1;                                 // of what splits and merges together
+    Array<Parent> parents_;
+    Array<Changed> changed_;
+    Array<NewBond> newBonds_;
+    Kept kept_;
 };
 
 } // namespace thaw

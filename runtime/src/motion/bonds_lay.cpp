@@ -60,7 +60,8 @@ void Bonds::lay(const BondFrame& f) {
                     if (k >= width || nb.entries[lane + 8 * k] >> 4 > j) k = 0;
                     while (k < width && nb.entries[lane + 8 * k] >> 4 < j) ++k;
                     if (k >= width || nb.entries[lane + 8 * k] >> 4 != j) continue;
-                    stiffness[lane + 8 * k] = b[n].weight * pairStiffness(own, elastic(f.materials, p, j));
+                    stiffness[lane + 8 * k] =
+                        mixed(p, i, j) * b[n].weight * pairStiffness(own, elastic(f.materials, p, j));
                     rest[lane + 8 * k] = b[n].rest;
                 }
                 const Vec4 x = p.position[i];
@@ -86,28 +87,36 @@ void Bonds::lay(const BondFrame& f) {
     });
 }
 
-Bonds::Stress Bonds::stress(const BondFrame& f, uint32_t row) const {
-    const Particles& p = f.particles;
-    const Elastic own = elastic(f.materials, p, row);
+Bonds::Virial Bonds::virial(const Particles& p, const Material* materials, uint32_t row) const {
+    const Elastic own = elastic(materials, p, row);
     const uint32_t slot = p.bondSlot[row];
     const Bond* b = bondsOf(slot);
-    const Vec3 x = p.position[row].xyz();
-    float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0, all = 0;
+    const Vec4 x = p.position[row];
+    Virial s{};
     for (int k = 0; k < count_[slot]; ++k) {
         const uint32_t j = rowOf_[b[k].other];
-        const Vec3 d = x - p.position[j].xyz();
+        const Vec3 d = x.xyz() - p.position[j].xyz();
         const float r = std::max(length(d), 1e-12f);
-        const float stiff = b[k].weight * pairStiffness(own, elastic(f.materials, p, j));
+        // Of a spring across levels each has as much as of the way.
+        const float part = p.level[row] == p.level[j] ? 1.0f : kMixed * 2 * x.w / (x.w + p.position[j].w);
+        const float stiff = part * b[k].weight * pairStiffness(own, elastic(materials, p, j));
         const float pull = -stiff * std::min(b[k].rest - r, kMostPress * b[k].rest) / r;
-        all += stiff * r * b[k].rest;
-        xx += pull * d.x * d.x, yy += pull * d.y * d.y, zz += pull * d.z * d.z;
-        xy += pull * d.x * d.y, yz += pull * d.y * d.z, zx += pull * d.z * d.x;
+        s.all += stiff * r * b[k].rest;
+        s.xx += pull * d.x * d.x, s.yy += pull * d.y * d.y, s.zz += pull * d.z * d.z;
+        s.xy += pull * d.x * d.y, s.yz += pull * d.y * d.z, s.zx += pull * d.z * d.x;
     }
-    const float mean = (xx + yy + zz) / 3, a = xx - mean, c = yy - mean, e = zz - mean;
-    const float deviator = a * a + c * c + e * e + 2 * (xy * xy + yz * yz + zx * zx);
+    return s;
+}
+
+Bonds::Stress Bonds::stress(const BondFrame& f, uint32_t row) const {
+    const Elastic own = elastic(f.materials, f.particles, row);
+    const Virial s = virial(f, row);
+    const float mean = (s.xx + s.yy + s.zz) / 3, a = s.xx - mean, c = s.yy - mean, e = s.zz - mean;
+    const float deviator = a * a + c * c + e * e + 2 * (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx);
     const float half = 0.5f / f.volume[row], modulus = 2 * own.modulus * own.share * own.share;
     // 3 K = 2 E. (The mean over the bonds is another one at the surface, which then creeps by a quarter less.)
-    return {half * std::sqrt(1.5f * deviator), modulus > 0 ? half * mean / modulus : 0, all > 0 ? 3 * mean / all : 0};
+    return {half * std::sqrt(1.5f * deviator), modulus > 0 ? half * mean / modulus : 0,
+            s.all > 0 ? 3 * mean / s.all : 0};
 }
 
 // Perfect plasticity (von Mises) and Maxwell creep: the share of the deviatoric stress that goes in this step goes from
@@ -195,7 +204,7 @@ void Bonds::weld(const BondFrame& f) {
             });
     }
     for (uint32_t i = 0; i < static_cast<uint32_t>(p.count); ++i)
-        if (const uint32_t slot = p.bondSlot[i]; slot && touched_[slot]) refill(p, f.volume, slot);
+        if (const uint32_t slot = p.bondSlot[i]; slot && touched_[slot]) refill(p, f.volume[i], slot);
 }
 
 } // namespace thaw

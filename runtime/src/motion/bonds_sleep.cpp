@@ -54,7 +54,7 @@ Vec3 Bonds::imbalance(const BondFrame& f, uint32_t row) const {
         const uint32_t j = rowOf_[b[k].other];
         const Vec3 d = x.xyz() - p.position[j].xyz();
         const float r = std::max(length(d), 1e-12f);
-        const float stiff = b[k].weight * pairStiffness(own, elastic(f.materials, p, j));
+        const float stiff = mixed(p, row, j) * b[k].weight * pairStiffness(own, elastic(f.materials, p, j));
         force += (stiff * std::min(b[k].rest - r, kMostPress * b[k].rest) / r) * d;
     }
     const uint32_t g = row >> 3, lane = row & 7;

@@ -53,12 +53,12 @@ void Bonds::bondRows(const BondFrame& f, BondResult& result) {
             const float r = length(p.position[j].xyz() - p.position[i].xyz());
             if (!(r < kReach * d) || !(r > 0)) return true;
             if (!p.bondSlot[j]) calm_[take(p, j)] = 1;
-            connect(p.bondSlot[i], p.bondSlot[j], r);
+            connect(p.bondSlot[i], p.bondSlot[j], r, p.level[i] | p.level[j] ? kMostMixed : kMost);
             return true;
         });
     }
     for (uint32_t i = 0; i < n; ++i)
-        if (const uint32_t slot = p.bondSlot[i]; slot && touched_[slot]) refill(p, f.volume, slot);
+        if (const uint32_t slot = p.bondSlot[i]; slot && touched_[slot]) refill(p, f.volume[i], slot);
 }
 
 BondResult Bonds::bondAll(const BondFrame& f) {
@@ -134,6 +134,15 @@ BondResult Bonds::update(const BondFrame& f) {
             drop(slot);
             p.bondSlot[i] = 0;
             ++result.released;
+            if (p.fine[i]) {
+                p.fine[i] = 0;
+                // What it covered may be bare from now on, whatever the reference says.
+                forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
+                    if (j >= n) return false;
+                    if (p.level[j] == 0) p.fine[j] = 0;
+                    return true;
+                });
+            }
             p.anchor[i] = 0;
             p.flags[i] = static_cast<uint8_t>(p.flags[i] & ~(kFixed | kAsleep));
             if (!(p.velocityChange[i].w > 0))
@@ -157,7 +166,7 @@ BondResult Bonds::update(const BondFrame& f) {
         bondRows(f, result);
     else if (result.released)
         for (uint32_t s = 1; s < rowOf_.size(); ++s)
-            if (calm_[s] && touched_[s]) refill(p, f.volume, s);
+            if (calm_[s] && touched_[s]) refill(p, f.volume[rowOf_[s]], s);
     if (live_ == 0) return result;
     colliderBounds_.resizeRaw(static_cast<size_t>(f.colliderCount));
     for (int c = 0; c < f.colliderCount; ++c)

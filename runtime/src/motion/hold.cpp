@@ -230,14 +230,15 @@ void Hold::letGo(const HoldFrame& f, size_t i) const {
     p.anchor[i] = 0; // its velocity stays that of what it hung on
     p.velocityChange[i] = {};
     p.stiffness[i] = 0;
-    const bool referred = p.fine[i];
-    p.fine[i] = 0;
+    // What has bonds moves with what is around it: nothing is bare by that.
+    const bool bonds = p.bondSlot[i], referred = p.fine[i] && !bonds;
+    if (!bonds) p.fine[i] = 0;
     if (!f.rigid.any() && !referred) return;
     forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
         if (j >= static_cast<uint32_t>(p.count)) return false;
         if (p.piece[j]) f.rigid.wake(p.piece[j]);
         // What it covered may be bare from now on, whatever the reference says.
-        if (p.level[j] == 0) p.fine[j] = 0;
+        if (!bonds && p.level[j] == 0) p.fine[j] = 0;
         return true;
     });
 }

@@ -13,18 +13,18 @@ namespace thaw {
 // their centre of mass, and splits into the two halves of that range, so that what is split to the end stands exactly
 // where the filling put it. Points turn with their solid; they do not move along: only differences mean something.
 struct Reference {
-    explicit Reference(Allocator& allocator) : point(allocator), slope(allocator) {}
+    explicit Reference(Allocator& allocator)
+        : point(allocator), slope(allocator), home(allocator), homeSlope(allocator) {}
 
     Array<Vec4> point; // xyz m; w share of its support that the whole body fills (Neighbors::volumeFraction)
     Array<Vec4> slope; // xyz gradient of that, 1/m (Neighbors::gradientSum); w: highest level of its group, 0..3
+    // Elastic solids bend: their points go with the deformation around them (Bonds::deform), and these are as filled.
+    // Empty as long as no elastic body has coarse particles.
+    Array<Vec4> home, homeSlope;
 
     // Mean of the 2^level points from `begin` on.
-    Vec3 center(uint32_t begin, int level) const {
-        double sum[3] = {};
-        const uint32_t n = 1u << level;
-        for (uint32_t k = begin; k < begin + n; ++k) sum[0] += point[k].x, sum[1] += point[k].y, sum[2] += point[k].z;
-        return {static_cast<float>(sum[0] / n), static_cast<float>(sum[1] / n), static_cast<float>(sum[2] / n)};
-    }
+    Vec3 center(uint32_t begin, int level) const { return mean(point, begin, level); }
+    Vec3 homeCenter(uint32_t begin, int level) const { return mean(home, begin, level); }
     int highestLevel(uint32_t begin) const { return static_cast<int>(slope[begin].w); }
 
     // Calls f(place, k) for the finest points of a row that has some: where they are now, and their index.
@@ -39,6 +39,14 @@ struct Reference {
         const uint32_t begin = p.fine[row] - 1;
         for (uint32_t k = begin, end = begin + (1u << p.level[row]); k < end; ++k)
             point[k].setXyz(turn(point[k].xyz())), slope[k].setXyz(turn(slope[k].xyz()));
+    }
+
+private:
+    static Vec3 mean(const Array<Vec4>& of, uint32_t begin, int level) {
+        double sum[3] = {};
+        const uint32_t n = 1u << level;
+        for (uint32_t k = begin; k < begin + n; ++k) sum[0] += of[k].x, sum[1] += of[k].y, sum[2] += of[k].z;
+        return {static_cast<float>(sum[0] / n), static_cast<float>(sum[1] / n), static_cast<float>(sum[2] / n)};
     }
 };
 

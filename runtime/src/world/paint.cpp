@@ -27,17 +27,15 @@ template <class F> int forPainted(const Particles& p, uint32_t body, const thawB
 // Coarse particles would be painted whole. Those for whose parts there is no room are.
 void World::splitUnder(uint32_t body, const thawBrush& brush) {
     if (!anyCoarse_) return;
-    const LevelFrame frame = levelFrame(plan.work);
-    const int rows = particles.count; // what splits off is fine
-    bool any = false;
-    for (int i = 0; i < rows; ++i) {
+    std::vector<uint32_t> touched;
+    for (int i = 0; i < particles.count; ++i) {
         const size_t k = static_cast<size_t>(i);
         if (particles.body[k] != body || particles.level[k] == 0 || !particles.fine[k]) continue;
-        bool touched = false;
-        reference_.forPoints(particles, k, [&](Vec3 x, uint32_t) { touched |= strength(brush, x) > 0; });
-        any |= touched && Levels::splitFully(frame, k);
+        bool near = false;
+        reference_.forPoints(particles, k, [&](Vec3 x, uint32_t) { near |= strength(brush, x) > 0; });
+        if (near) touched.push_back(static_cast<uint32_t>(i));
     }
-    if (!any) return;
+    if (!levels_.splitFully(levelFrame(plan.work, 0), touched.data(), touched.size())) return;
     listsStale_ = levelsChanged_ = true;
     measure();
 }

@@ -7,7 +7,7 @@
 
 namespace thaw {
 
-LevelFrame World::levelFrame(const thawWork& work) {
+LevelFrame World::levelFrame(const thawWork& work, float dt) {
     return {particles,
             neighbors_,
             reference_,
@@ -22,14 +22,16 @@ LevelFrame World::levelFrame(const thawWork& work) {
             colliders.data(),
             static_cast<int>(colliders.size()),
             mayBeCoarse() ? coarsestOf_.data() : nullptr,
-            motion_.densityErrors()};
+            motion_.densityErrors(),
+            anySoft() ? &bonds_ : nullptr,
+            dt};
 }
 
 bool World::mayBeCoarse() const {
     return std::any_of(coarsestOf_.begin(), coarsestOf_.end(), [](uint8_t coarsest) { return coarsest > 0; });
 }
 
-Vec3 World::refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume) {
+Vec3 World::refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume, bool bends) {
     // How bare each point is where all of the body is fine.
     const int n = static_cast<int>(points.size());
     Particles fine(allocator);
@@ -53,15 +55,23 @@ Vec3 World::refer(size_t slot, const std::vector<Vec3>& points, const Groups& gr
     std::vector<uint32_t> rowOf(points.size());
     for (uint32_t r = 0; r < points.size(); ++r) rowOf[fine.id[r]] = r;
 
-    const size_t begin = reference_.point.size();
-    reference_.point.resize(begin + points.size()), reference_.slope.resize(begin + points.size());
+    // Whole bricks, so that those of every body begin at a multiple of eight.
+    const size_t begin = reference_.point.size(), end = begin + (points.size() + 7) / 8 * 8;
+    reference_.point.resize(end), reference_.slope.resize(end);
     for (size_t place = 0; place < points.size(); ++place) {
         const uint32_t r = rowOf[groups.order[place]];
         const Vec3 x = fine.position[r].xyz(), g = lists.gradientSum[r].xyz();
         reference_.point[begin + place] = {x.x, x.y, x.z, lists.volumeFraction[r]};
         reference_.slope[begin + place] = {g.x, g.y, g.z, static_cast<float>(groups.levelOf(place))};
     }
-    bodyPoints_[slot] = {static_cast<uint32_t>(begin), static_cast<uint32_t>(begin + points.size())};
+    bodyPoints_[slot] = {static_cast<uint32_t>(begin), static_cast<uint32_t>(end)};
+    // An elastic solid needs to know where its points were.
+    if (bends || !reference_.home.empty()) {
+        const size_t known = reference_.home.size();
+        reference_.home.resize(end), reference_.homeSlope.resize(end);
+        for (size_t k = known; k < end; ++k)
+            reference_.home[k] = reference_.point[k], reference_.homeSlope[k] = reference_.slope[k];
+    }
     return center;
 }
 
@@ -74,6 +84,11 @@ void World::forget(size_t slot) {
     for (size_t k = gone.begin; k < kept; ++k)
         reference_.point[k] = reference_.point[k + count], reference_.slope[k] = reference_.slope[k + count];
     reference_.point.resize(kept), reference_.slope.resize(kept);
+    if (!reference_.home.empty()) {
+        for (size_t k = gone.begin; k < kept; ++k)
+            reference_.home[k] = reference_.home[k + count], reference_.homeSlope[k] = reference_.homeSlope[k + count];
+        reference_.home.resize(kept), reference_.homeSlope.resize(kept);
+    }
     for (PointRange& r : bodyPoints_)
         if (r.begin >= gone.end) r.begin -= count, r.end -= count;
     for (int i = 0; i < particles.count; ++i)

@@ -34,9 +34,9 @@ struct StageTimer {
     Clock::time_point start_;
 };
 
-// Solid, and nothing that lists of bonds or liquid need: it may stand for several.
+// Solid: it may stand for several.
 bool startsCoarse(const Material& m, float temperature) {
-    return !m.soft() && m.liquidFraction(m.enthalpy(temperature)) < m.def.releaseFraction;
+    return m.liquidFraction(m.enthalpy(temperature)) < m.def.releaseFraction;
 }
 
 uint16_t makeTag(const void* self) {
@@ -149,7 +149,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
 
     if (on(thawStage_levels)) {
         auto t = timed(thawStage_levels);
-        levels_.choose(levelFrame(work), on(thawStage_radiation) ? heat_.power() : nullptr, bodiesNew);
+        levels_.choose(levelFrame(work, dt), on(thawStage_radiation) ? heat_.power() : nullptr, bodiesNew);
     }
 
     MotionStats motionStats{};
@@ -210,7 +210,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
         levelsChanged_ = true; // the next step sees to it
     } else if (on(thawStage_levels)) {
         auto t = timed(thawStage_levels);
-        levelResult = levels_.apply(levelFrame(work));
+        levelResult = levels_.apply(levelFrame(work, dt));
         if (levelResult.split + levelResult.merged > 0) listsStale_ = true;
         if (levelResult.refused) status |= thawStep_splitsClipped;
         levelsChanged_ = levelResult.split + levelResult.merged > 0;
@@ -567,6 +567,7 @@ void World::holdAndRelease(float dt) {
         const BondResult b = bonds_.update(bondFrame(dt));
         if (b.released + b.woken > 0) holdStale_ = true;
         if (b.changed()) listsStale_ = true;
+        if (anyCoarse_) bonds_.deform(bondFrame(dt), reference_);
     }
     if (!toldApart_) return;
     const AnchorFrame frame{particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()), tasks, rigid_};
@@ -687,7 +688,13 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
             if (!startsCoarse(materials[k], temperature)) k = kAlone;
         groups = groupPoints(points, kind, lattice);
     }
-    const size_t rowsNeeded = groups.rows(points.size(), d.coarsestLevel);
+    const auto levelAt = [&](size_t at) {
+        if (groups.order.empty()) return 0;
+        const int level = std::min(groups.levelOf(at), d.coarsestLevel);
+        return level < kHighestLevel && materials[materialOf[groups.order[at]]].soft() ? 0 : level; // see Levels
+    };
+    size_t rowsNeeded = 0;
+    for (size_t at = 0; at < points.size(); at += size_t{1} << levelAt(at)) ++rowsNeeded;
     if (rowsNeeded > static_cast<size_t>(room)) {
         message = "maxParticles: the body needs " + std::to_string(rowsNeeded) + " particles at its coarsestLevel of " +
                   std::to_string(d.coarsestLevel) + ", but only " + std::to_string(room) + " are free";
@@ -695,7 +702,9 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     }
     if (bodies.size() <= slot) bodies.resize(slot + 1), bodyPoints_.resize(slot + 1), coarsestOf_.resize(slot + 1);
     coarsestOf_[slot] = static_cast<uint8_t>(d.coarsestLevel);
-    const Vec3 middle = d.coarsestLevel > 0 ? refer(slot, points, groups, volume) : Vec3{};
+    const bool bends =
+        std::any_of(materialOf.begin(), materialOf.end(), [&](uint8_t k) { return materials[k].soft(); });
+    const Vec3 middle = d.coarsestLevel > 0 ? refer(slot, points, groups, volume, bends) : Vec3{};
 
     float meanDensity = materials[d.material.index1 - 1].def.density;
     if (d.partCount > 0) {
@@ -720,7 +729,7 @@ thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::str
     if (!d.anchored) loose.reserve(points.size()), rigid_.reserve();
     for (size_t at = 0, step; at < points.size(); at += step) {
         const size_t point = groups.order.empty() ? at : groups.order[at];
-        const int level = groups.order.empty() ? 0 : std::min(groups.levelOf(at), d.coarsestLevel);
+        const int level = levelAt(at);
         step = size_t{1} << level;
         const Vec3 x = level > 0
                            ? middle + reference_.center(bodyPoints_[slot].begin + static_cast<uint32_t>(at), level)
@@ -949,6 +958,7 @@ uint64_t World::stateHash() const {
     }
     bytes(reference_.point.data(), reference_.point.size() * sizeof(Vec4));
     bytes(reference_.slope.data(), reference_.slope.size() * sizeof(Vec4));
+    if (!reference_.home.empty()) bytes(reference_.home.data(), reference_.home.size() * sizeof(Vec4));
     return units_.hash(heat_.hash(rigidLiquid_.hash(rigid_.hash(bonds_.hash(h)))));
 }
 

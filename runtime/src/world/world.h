@@ -116,10 +116,10 @@ private:
     // Of all rows k for which remove(k); adds what they had to mass and energy. Returns how many.
     template <class F> int removeParticles(F&& remove, double& mass, double& energy);
     void burnOff(double heatSeconds);
-    LevelFrame levelFrame(const thawWork& work);
+    LevelFrame levelFrame(const thawWork& work, float dt);
     void splitUnder(uint32_t body, const thawBrush& brush);
     // Adds the points of a body to the reference, in the order of their groups. Returns where its origin is.
-    Vec3 refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume);
+    Vec3 refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume, bool bends);
     void forget(size_t slot);
     void expandForSurface();
     bool mayBeCoarse() const; // some body
