@@ -13,6 +13,12 @@ namespace thaw::view {
 /// t in 0..1, clamped. Linear RGB.
 thawVec3 heatColor(float t);
 
+/// Where the colour of a particle's level is in the heat colours.
+constexpr int kLevelColors = 4;
+constexpr float levelTint(int level) {
+    return level < kLevelColors ? static_cast<float>(level) / static_cast<float>(kLevelColors - 1) : 1.0f;
+}
+
 enum class Phase { solid, mushy, liquid };
 constexpr float kSolidBelow = 0.02f, kLiquidAbove = 0.98f; // liquid fractions that part the phases in pictures
 Phase phaseOf(float liquidFraction);

@@ -43,7 +43,7 @@ struct Column {
 };
 
 // Titles on top, then the bar with one or two columns of numbers.
-Image bar(const std::string& title, const std::vector<Column>& columns, int s) {
+Image bar(const std::string& title, const std::vector<Column>& columns, int s, bool reversed = false) {
     const int barWidth = 12 * s, barHeight = 104 * s, pad = 6 * s, line = textHeight(s) + 2 * s;
     std::vector<int> widths;
     for (const Column& c : columns) {
@@ -59,9 +59,10 @@ Image bar(const std::string& title, const std::vector<Column>& columns, int s) {
     Image panel(width, pad + line + line + barHeight + pad + 3 * s, kPanel);
     drawText(panel, pad, pad, title, s, kInk);
     const int barX = pad + left, top = pad + 2 * line;
-    for (int j = 0; j < barHeight; ++j)
-        fillRectangle(panel, barX, top + j, barWidth, 1,
-                      toRgba(heatColor(1 - (static_cast<float>(j) + 0.5f) / static_cast<float>(barHeight))));
+    for (int j = 0; j < barHeight; ++j) {
+        const float down = (static_cast<float>(j) + 0.5f) / static_cast<float>(barHeight);
+        fillRectangle(panel, barX, top + j, barWidth, 1, toRgba(heatColor(reversed ? down : 1 - down)));
+    }
     for (size_t k = 0; k < columns.size(); ++k) {
         const Column& c = columns[k];
         const bool onLeft = k == 0 && columns.size() > 1;
@@ -92,8 +93,30 @@ Image temperatureLegend(float lowKelvin, float highKelvin, int scale) {
                std::max(scale, 1));
 }
 
-Image rangeLegend(const std::string& title, const std::string& unit, float low, float high, int scale) {
-    return bar(title, {{unit, low, high}}, std::max(scale, 1));
+Image rangeLegend(const std::string& title, const std::string& unit, float low, float high, int scale, bool reversed) {
+    return bar(title, {{unit, low, high}}, std::max(scale, 1), reversed);
+}
+
+Image levelLegend(const std::array<int, kLevelColors>& counts, int s) {
+    s = std::max(s, 1);
+    const int pad = 6 * s, line = textHeight(s) + 5 * s, swatch = 9 * s;
+    int number = textWidth("particles", s), all = 0;
+    for (const int n : counts) number = std::max(number, textWidth(std::to_string(n), s)), all += n;
+    const int left = pad + std::max(swatch + 4 * s + textWidth("3", s), textWidth("level", s)) + 8 * s;
+    Image panel(left + number + pad, pad + line * (kLevelColors + 2) + pad - 5 * s, kPanel);
+    const auto right = [&](const std::string& text, int y) {
+        drawText(panel, left + number - textWidth(text, s), y, text, s, kInk);
+    };
+    drawText(panel, pad, pad, "level", s, kInk);
+    right("particles", pad);
+    for (int level = 0; level < kLevelColors; ++level) {
+        const int y = pad + line * (level + 1);
+        fillRectangle(panel, pad, y - s, swatch, swatch, toRgba(heatColor(levelTint(level))));
+        drawText(panel, pad + swatch + 4 * s, y, std::to_string(level), s, kInk);
+        right(std::to_string(counts[static_cast<size_t>(level)]), y);
+    }
+    right(std::to_string(all), pad + line * (kLevelColors + 1));
+    return panel;
 }
 
 Image phaseLegend(int s) {

@@ -543,7 +543,8 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         if (high - low < 1) low -= 0.5f, high += 0.5f;
     }
     GLsizei particleCount = 0;
-    float speedHigh = view.speedHigh;
+    float speedHigh = view.speedHigh, featureHigh = view.featureHigh;
+    std::array<int, kLevelColors> levelCounts{};
     if (scene.particles && scene.particles->count > 0) {
         const thawParticleView& p = *scene.particles;
         particleCount = p.count;
@@ -562,6 +563,15 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
             }
             if (!(speedHigh > 0)) speedHigh = std::max(fastest, 1e-3f);
             for (float& v : values) v /= speedHigh;
+        }
+        if (scene.particleColor == ParticleColor::level && p.levels)
+            for (size_t i = 0; i < count; ++i)
+                values[i] = levelTint(p.levels[i]), ++levelCounts[std::min<size_t>(p.levels[i], kLevelColors - 1)];
+        if (scene.levelCounts != std::array<int, kLevelColors>{}) levelCounts = scene.levelCounts;
+        if (scene.particleColor == ParticleColor::featureSize && scene.featureSizes) {
+            if (!(featureHigh > 0))
+                featureHigh = std::max(*std::max_element(scene.featureSizes, scene.featureSizes + count), 1e-6f);
+            for (size_t i = 0; i < count; ++i) values[i] = 1 - scene.featureSizes[i] / featureHigh;
         }
         for (float& v : values) v = std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 0.0f;
         glBindVertexArray(particleArray.get());
@@ -873,6 +883,9 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
             if (scene.particleColor == ParticleColor::liquidFraction)
                 panel = rangeLegend("liquid", "fraction", 0, 1, scale);
             if (scene.particleColor == ParticleColor::speed) panel = rangeLegend("speed", "m/s", 0, speedHigh, scale);
+            if (scene.particleColor == ParticleColor::level) panel = levelLegend(levelCounts, scale);
+            if (scene.particleColor == ParticleColor::featureSize)
+                panel = rangeLegend("ELFS", "mm", 0, 1000 * featureHigh, scale, true);
         } else
             panel = view.mode == ViewMode::temperature ? temperatureLegend(low, high, scale) : phaseLegend(scale);
         const int gap = 6 * scale;

@@ -7,6 +7,7 @@
 #include "view/mesh.h"
 #include "view/orbit.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,13 @@ enum class ViewMode {
     phase        // solid, mushy, liquid, with a key
 };
 
-enum class ParticleColor { temperature, liquidFraction, speed };
+enum class ParticleColor {
+    temperature,
+    liquidFraction,
+    speed,
+    level,      // a colour for each, and a key with counts
+    featureSize // Scene::featureSizes, red where something is thin
+};
 
 /// How a melt material looks. At most 16 are told apart; a higher index takes the last.
 struct MaterialLook {
@@ -87,6 +94,8 @@ struct Scene {
     std::vector<Glow> glows;                     // the first 8 give light, the first 4 of them cast shadows
     const thawParticleView* particles = nullptr; // drawn as balls when not null
     ParticleColor particleColor = ParticleColor::temperature;
+    const float* featureSizes = nullptr; // m, of the particles; for that colour only
+    std::array<int, 4> levelCounts{};    // for the key of the levels; all 0: what is drawn is counted
     Floor floor;
     KeyLight key;
     Environment environment;
@@ -104,6 +113,7 @@ struct View {
     float exposure = 1;                            // factor, > 0
     float temperatureLow = 0, temperatureHigh = 0; // K, ends of the scale; equal: from the data
     float speedHigh = 0;                           // m/s, end of the scale of particle speeds; 0: from the data
+    float featureHigh = 0;                         // m, end of the scale of feature sizes; 0: from the data
     bool legend = true;                            // scale or key in the picture, where the mode has one
 };
 

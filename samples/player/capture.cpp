@@ -14,14 +14,28 @@ namespace {
 struct Options {
     std::vector<std::string> scenes;
     std::string at, size = "960x540", view = "shaded", out, work = "4,4,12";
+    std::string levels; // coarsest ones, a run for each
     int threads = defaultThreads();
-    bool sheet = false, quiet = false;
+    bool sheet = false, cut = false, quiet = false;
 };
 
+std::vector<PictureView> parseViews(const std::string& text) {
+    std::vector<PictureView> views;
+    for (size_t at = 0; at <= text.size();) {
+        const size_t end = std::min(text.find(',', at), text.size());
+        views.push_back(parseView("--view", text.substr(at, end - at)));
+        at = end + 1;
+    }
+    return views;
+}
+
 // Draws one scene at its times; `index` counts the files. Returns the pictures for a sheet.
-std::unique_ptr<Pictures> captureScene(const Options& o, const std::string& path, PictureSize size, PictureView view,
-                                       int& index, std::string& name) {
-    const scene::Scene scene = scene::loadScene(path);
+std::unique_ptr<Pictures> captureScene(const Options& o, const std::string& path, PictureSize size,
+                                       const std::vector<PictureView>& views, int coarsest, int& index,
+                                       std::string& name) {
+    scene::Scene scene = scene::loadScene(path);
+    for (scene::Body& b : scene.bodies)
+        if (coarsest >= 0) b.coarsestLevel = coarsest;
     std::vector<double> times;
     if (!o.at.empty())
         times = parseNumbers("--at", o.at, 0, 3600, "s", 1, 1000);
@@ -35,7 +49,7 @@ std::unique_ptr<Pictures> captureScene(const Options& o, const std::string& path
     const scene::SceneMeshes meshes = scene::loadMeshes(scene);
     const scene::SceneWorld built = scene::buildWorld(scene, meshes, o.threads);
     makeFolder(o.out);
-    auto pictures = std::make_unique<Pictures>(scene, meshes, size);
+    auto pictures = std::make_unique<Pictures>(scene, meshes, size, o.cut);
     Report report;
     report.name = name = scene::oneLine(scene.name, 80);
     report.budget = budget;
@@ -50,10 +64,16 @@ std::unique_ptr<Pictures> captureScene(const Options& o, const std::string& path
                     throw RunError(std::string("a step was refused: ") + thawWorld_GetLastError(built.world.get()));
                 progress.frame(frame + 1, report);
             }
-            const std::string when = formatted("t = %.2f s", frame * kFrameSeconds);
-            pictures->take(built.world.get(), view, o.scenes.size() > 1 ? report.name + ", " + when : when,
-                           (std::filesystem::path(o.out) / formatted("capture_%03d.png", index++)).string());
-            ++taken;
+            std::string when = formatted("t = %.2f s", frame * kFrameSeconds);
+            if (o.scenes.size() > 1) when = report.name + ", " + when;
+            thawCounters counters;
+            thawWorld_GetCounters(built.world.get(), &counters);
+            if (coarsest >= 0) when += formatted(coarsest > 0 ? ", adaptive, %d" : ", uniform, %d", counters.particles);
+            for (const PictureView view : views) {
+                pictures->take(built.world.get(), view, when,
+                               (std::filesystem::path(o.out) / formatted("capture_%03d.png", index++)).string());
+                ++taken;
+            }
         }
     }
     std::printf("%s: %d pictures in %s, state hash %s\n", report.name.c_str(), taken,
@@ -63,13 +83,24 @@ std::unique_ptr<Pictures> captureScene(const Options& o, const std::string& path
 
 int capture(const Options& o) {
     const PictureSize size = parseSize("--size", o.size);
-    const PictureView view = parseView("--view", o.view);
+    const std::vector<PictureView> views = parseViews(o.view);
+    std::vector<double> levels{-1};
+    if (!o.levels.empty()) levels = parseNumbers("--coarsest-level", o.levels, 0, 3, "", 1, 4);
+    for (const double level : levels)
+        if (level != std::floor(level)) throw scene::InputError("--coarsest-level: must be whole numbers");
     checkRange("--threads", o.threads, 1, 64);
     std::unique_ptr<Pictures> all;
     std::string name;
     int index = 0;
     for (const std::string& path : o.scenes) {
-        std::unique_ptr<Pictures> pictures = captureScene(o, path, size, view, index, name);
+        std::unique_ptr<Pictures> pictures;
+        for (size_t k = 0; k < levels.size(); ++k) {
+            std::unique_ptr<Pictures> run = captureScene(o, path, size, views, int(levels[k]), index, name);
+            if (pictures)
+                pictures->beside(*run, int(k));
+            else
+                pictures = std::move(run);
+        }
         if (all)
             all->append(*pictures);
         else
@@ -77,7 +108,8 @@ int capture(const Options& o) {
     }
     if (o.sheet)
         all->writeSheet((std::filesystem::path(o.out) / "sheet.png").string(),
-                        o.scenes.size() > 1 ? formatted("%zu scenes", o.scenes.size()) : name);
+                        o.scenes.size() > 1 ? formatted("%zu scenes", o.scenes.size()) : name,
+                        levels.size() > 1 ? int(levels.size()) : 0);
     return kExitOk;
 }
 } // namespace
@@ -88,12 +120,16 @@ void addCapture(CLI::App& app, int& exitCode) {
     command->add_option("scenes", o->scenes, "Scene files (JSON); several come one after the other")->required();
     command->add_option("--at", o->at, "Times of the game, s, with commas between (default: what the scene says)");
     command->add_option("--size", o->size, "Pixels of a picture")->capture_default_str();
-    command->add_option("--view", o->view, "shaded, temperature or phase")->capture_default_str();
+    command->add_option("--view", o->view, std::string(kPictureViews) + "; with commas between, several")
+        ->capture_default_str();
     command->add_option("--out", o->out, "Folder for the pictures; made when it is not there")->required();
     command->add_option("--work", o->work, "Work of a step: sub-steps,pressure,viscosity iterations[,least sub-steps]")
         ->capture_default_str();
     command->add_option("--threads", o->threads, "Threads that take part, 1 to 64; changes no picture")
         ->capture_default_str();
+    command->add_option("--coarsest-level", o->levels,
+                        "Of all bodies, 0 to 3; with commas between, a run for each, side by side on the sheet");
+    command->add_flag("--cut", o->cut, "Of particles (views particles, level, elfs), only those behind the middle");
     command->add_flag("--sheet", o->sheet, "Also sheet.png with all pictures");
     command->add_flag("--quiet", o->quiet, "No progress on stderr");
     command->callback([=, &exitCode] { exitCode = capture(*o); });

@@ -55,7 +55,10 @@ PictureView parseView(const std::string& name, const std::string& text) {
     if (text == "shaded") return PictureView::shaded;
     if (text == "temperature") return PictureView::temperature;
     if (text == "phase") return PictureView::phase;
-    throw InputError(name + ": must be shaded, temperature or phase, got '" + oneLine(text, 40) + "'");
+    if (text == "particles") return PictureView::particles;
+    if (text == "level") return PictureView::level;
+    if (text == "elfs") return PictureView::elfs;
+    throw InputError(name + ": must be " + kPictureViews + ", got '" + oneLine(text, 40) + "'");
 }
 
 struct Pictures::State {
@@ -64,11 +67,62 @@ struct Pictures::State {
     view::Scene scene;
     view::View view;
     std::vector<view::CaptionedImage> taken;
+
+    // Particles as balls of half their spacing, of those that are drawn.
+    float spacing = 0;
+    bool cut = false;
+    std::vector<double> middle; // x y z, of the first picture
+    struct Balls {
+        std::vector<float> positions, temperatures, sizes;
+        std::vector<uint8_t> levels;
+        thawParticleView view{};
+    } balls;
+    void gatherBalls(thawWorld* world, PictureView mode);
 };
 
-Pictures::Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, PictureSize size)
+void Pictures::State::gatherBalls(thawWorld* world, PictureView mode) {
+    const float* sizes = nullptr;
+    if (mode == PictureView::elfs && thawWorld_GetFeatureSizes(world, &sizes) != thawResult_ok)
+        throw RunError(std::string("no feature sizes: ") + thawWorld_GetLastError(world));
+    thawParticleView all;
+    thawWorld_GetParticles(world, &all);
+    if (middle.empty()) {
+        middle.assign(3, 0);
+        for (int i = 0; i < all.count; ++i)
+            for (size_t a = 0; a < 3; ++a)
+                middle[a] += double(all.positions[4 * size_t(i) + a]) / std::max(all.count, 1);
+    }
+    // Upright, so that what runs down a side is cut along its way.
+    const double way[2] = {double(view.camera.target.x - view.camera.eye.x),
+                           double(view.camera.target.z - view.camera.eye.z)};
+    balls = {};
+    for (int i = 0; i < all.count; ++i) {
+        const float* x = all.positions + 4 * size_t(i);
+        if (cut && way[0] * (double(x[0]) - middle[0]) + way[1] * (double(x[2]) - middle[2]) < 0) continue;
+        balls.positions.insert(balls.positions.end(), x, x + 3);
+        balls.positions.push_back(0.5f * spacing * std::exp2(float(all.levels[i]) / 3));
+        balls.temperatures.push_back(all.temperatures[i]), balls.levels.push_back(all.levels[i]);
+        if (sizes) balls.sizes.push_back(sizes[i]);
+    }
+    balls.view.count = int32_t(balls.levels.size());
+    balls.view.positions = balls.positions.data(), balls.view.temperatures = balls.temperatures.data();
+    balls.view.levels = balls.levels.data();
+    scene.particles = &balls.view;
+    scene.particleColor = mode == PictureView::level  ? view::ParticleColor::level
+                          : mode == PictureView::elfs ? view::ParticleColor::featureSize
+                                                      : view::ParticleColor::temperature;
+    scene.featureSizes = balls.sizes.data();
+    scene.levelCounts = {};
+    for (int i = 0; i < all.count; ++i) ++scene.levelCounts[all.levels[i]];
+    // One scale for all pictures, in whole spacings.
+    if (sizes && !(view.featureHigh > 0) && all.count > 0)
+        view.featureHigh = spacing * std::ceil(*std::max_element(sizes, sizes + all.count) / spacing);
+}
+
+Pictures::Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, PictureSize size, bool cut)
     : state_(std::make_unique<State>()) {
     State& s = *state_;
+    s.spacing = scene.world.particleSpacing, s.cut = cut;
     std::string error;
     s.context = view::HeadlessContext::create(error);
     if (!s.context) throw RunError("no way to draw on this machine: " + oneLine(error, 300));
@@ -144,9 +198,14 @@ void Pictures::take(thawWorld* world, PictureView mode, const std::string& capti
     thawWorld_GetCounters(world, &counters);
     s.scene.time = float(counters.time);
     if (s.scene.stage.empty()) s.scene.stage = view::sceneBounds(s.scene); // as it stands at first
-    s.view.mode = mode == PictureView::shaded        ? view::ViewMode::shaded
-                  : mode == PictureView::temperature ? view::ViewMode::temperature
-                                                     : view::ViewMode::phase;
+    s.view.mode = mode == PictureView::temperature ? view::ViewMode::temperature
+                  : mode == PictureView::phase     ? view::ViewMode::phase
+                                                   : view::ViewMode::shaded;
+    s.scene.particles = nullptr;
+    if (mode == PictureView::particles || mode == PictureView::level || mode == PictureView::elfs) {
+        s.scene.surface = {};
+        s.gatherBalls(world, mode);
+    }
     std::string error;
     std::optional<view::Image> image = s.renderer->capture(s.scene, s.view, error);
     if (!image) throw RunError("no picture: " + oneLine(error, 300));
@@ -159,9 +218,19 @@ void Pictures::append(Pictures& other) {
     other.state_->taken.clear();
 }
 
-void Pictures::writeSheet(const std::string& path, const std::string& title) const {
+void Pictures::beside(Pictures& other, int columns) {
+    std::vector<view::CaptionedImage> all;
+    auto &own = state_->taken, &more = other.state_->taken;
+    for (size_t i = 0, k = 0; i < own.size() || k < more.size();) {
+        for (int c = 0; c < columns && i < own.size(); ++c) all.push_back(std::move(own[i++]));
+        if (k < more.size()) all.push_back(std::move(more[k++]));
+    }
+    own = std::move(all), more.clear();
+}
+
+void Pictures::writeSheet(const std::string& path, const std::string& title, int columns) const {
     std::string error;
-    const view::Image sheet = view::contactSheet(state_->taken, 0, title);
+    const view::Image sheet = view::contactSheet(state_->taken, columns, title);
     if (!view::writePng(path, sheet, error)) throw RunError(oneLine(path, 400) + ": " + oneLine(error, 200));
 }
 

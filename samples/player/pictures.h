@@ -10,15 +10,24 @@
 
 namespace thaw::player {
 
-enum class PictureView { shaded, temperature, phase };
+enum class PictureView {
+    shaded,
+    temperature, // of the surface
+    phase,
+    particles, // by temperature, as balls of their spacing
+    level,
+    elfs // extended local feature size
+};
+inline constexpr const char* kPictureViews = "shaded, temperature, phase, particles, level or elfs";
 // Throws InputError.
 PictureView parseView(const std::string& name, const std::string& text);
 
 // Takes pictures of a world and keeps them for a contact sheet.
 class Pictures {
 public:
-    // Throws RunError when there is no way to draw on this machine.
-    Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, PictureSize size);
+    // Throws RunError when there is no way to draw on this machine. cut: of the particles, only those behind the middle
+    // of what there is at first.
+    Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, PictureSize size, bool cut = false);
     ~Pictures();
     Pictures(const Pictures&) = delete;
     Pictures& operator=(const Pictures&) = delete;
@@ -27,8 +36,10 @@ public:
     void take(thawWorld* world, PictureView view, const std::string& caption, const std::string& path);
     // The other's pictures come after its own; the other has none then.
     void append(Pictures& other);
-    // All pictures so far in a grid. Throws RunError.
-    void writeSheet(const std::string& path, const std::string& title) const;
+    // The other's pictures come one by one after each `columns` of its own; the other has none then.
+    void beside(Pictures& other, int columns);
+    // All pictures so far in a grid; columns 0: as square as it gets. Throws RunError.
+    void writeSheet(const std::string& path, const std::string& title, int columns = 0) const;
 
 private:
     struct State;

@@ -171,6 +171,22 @@ TEST_CASE_FIXTURE(ViewFixture, "particles are balls in the colours of their valu
     CHECK(redness(view::ParticleColor::temperature, true) > 3 * redness(view::ParticleColor::temperature, false));
     CHECK(redness(view::ParticleColor::speed, true) > 3 * redness(view::ParticleColor::speed, false));
     CHECK(redness(view::ParticleColor::liquidFraction, false) > 3 * redness(view::ParticleColor::liquidFraction, true));
+    // Levels have their own colours, thin things are red.
+    const std::vector<uint8_t> levels{0, 3};
+    const std::vector<float> sizes{0.001f, 0.01f};
+    particles.levels = levels.data(), scene.featureSizes = sizes.data();
+    CHECK(redness(view::ParticleColor::level, true) > 3 * redness(view::ParticleColor::level, false));
+    CHECK(redness(view::ParticleColor::featureSize, false) > 3 * redness(view::ParticleColor::featureSize, true));
+    v.featureHigh = 0.1f; // both are thin then
+    CHECK(redness(view::ParticleColor::featureSize, true) > 0.5 * redness(view::ParticleColor::featureSize, false));
+    // The key of the levels has a row more or less lit by what it counts.
+    v.legend = true, scene.particleColor = view::ParticleColor::level;
+    const Image counted = draw(scene, v);
+    scene.levelCounts = {1, 20, 300, 4000};
+    const Image told = draw(scene, v);
+    CHECK(counted.pixels != told.pixels);
+    CHECK(meanOf(counted, 0.0, 0.0, 0.6, 1.0).luminance() == meanOf(told, 0.0, 0.0, 0.6, 1.0).luminance());
+    v.legend = false;
     // A ball of radius 0.02 at 0.3 m in a picture 0.1216 m high there covers a known area.
     scene.floor.visible = false;
     scene.particleColor = view::ParticleColor::temperature;
