@@ -111,7 +111,7 @@ TEST_CASE("feature size: a slab's is half its thickness at the surface, and grow
 }
 
 TEST_CASE("feature size: a ball's is its radius and the depth") {
-    for (const float jitter : {0.0f, 0.1f})
+    for (const float jitter : {0.0f, 0.1f, 0.15f})
         for (const float R : {4.0f, 7.0f, 11.0f}) {
             CAPTURE(jitter);
             CAPTURE(R);
@@ -120,9 +120,11 @@ TEST_CASE("feature size: a ball's is its radius and the depth") {
                 {-R, -R, -R}, {R, R, R}, [&](Vec3 x) { return length(x) < R; }, jitter);
             m.features.settle(m.frame());
             const Melt::Error e = m.error([&](Vec3 x) { return R + std::max(0.0f, R - length(x)); });
-            CHECK(e.worst < 2);
-            CHECK(e.wrong < 0.05f);
-            CHECK(e.mean < 0.6f);
+            // The last is more disorder than a liquid has, with holes that pass for surface.
+            const bool strewn = jitter > 0.1f;
+            CHECK(e.worst < (strewn ? 4 : 2));
+            CHECK(e.wrong < (strewn ? 0.35f : 0.05f));
+            CHECK(e.mean < (strewn ? 0.9f : 0.6f));
         }
 }
 

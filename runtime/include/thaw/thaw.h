@@ -295,8 +295,9 @@ typedef struct thawBodyDef {
     const thawBodyPart* parts; /* partCount of them; where parts overlap the later one counts; default NULL */
     int32_t partCount;         /* range 0..64, default 0 */
     int32_t coarsestLevel; /* its solid starts with particles of up to 2^this times the mass of the finest, which split
-                              before heat or anything that moves gets to them; range 0..3, default 0. Elastic solids
-                              are either at 3 or at 0: coarse where this is 3 */
+                              before heat or anything that moves gets to them; its liquid merges to as much where it
+                              is thick (half of the extended local feature size); range 0..3, default 0. Elastic
+                              solids are either at 3 or at 0: coarse where this is 3 */
     bool anchored; /* default true: solid that hangs together with a collider is stuck to it. false: it stands free, a
                       rigid piece that can be pushed and fall over */
 } thawBodyDef;

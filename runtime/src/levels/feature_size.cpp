@@ -16,6 +16,9 @@ constexpr int kRowBlock = 512;
 // cube's corner 0.58.
 constexpr float kAscent = 0.4f;
 
+// The same for the neighbours' neighbours, up to four spacings away, in spacings: where rows are strewn, one may have
+// no way up though it is far from the axis.
+constexpr float kRise = 1.75f;
 // A surface row has at least this share of such rows around it: on a plane it is a half. The holes in a liquid's inside
 // that pass for surface are alone, and each would make a thin place of a thick one.
 constexpr float kCompany = 0.2f;
@@ -30,6 +33,7 @@ struct Nearest {
     float depth, medial, size;
     bool ascends = false, deeper = false;
     int rows = 0, surface = 0;
+    uint8_t above = 0, farther = 0; // greatest depth of neighbours, and of theirs
 };
 
 } // namespace
@@ -56,6 +60,7 @@ int FeatureSize::relax(const FeatureFrame& f, uint32_t turn, uint32_t turns) {
                 n.depth = std::min(n.depth, static_cast<float>(other.depth) + way);
                 n.medial = std::min(n.medial, static_cast<float>(other.medial) + way);
                 n.size = std::min(n.size, static_cast<float>(other.size) + way);
+                n.above = std::max(n.above, other.depth), n.farther = std::max(n.farther, other.above);
                 const float gain = static_cast<float>(other.depth) - static_cast<float>(old.depth);
                 n.ascends |= gain > kAscent * way, n.deeper |= gain > 0;
                 ++n.rows, n.surface += (p.flags[j] & kSurface) != 0;
@@ -66,12 +71,14 @@ int FeatureSize::relax(const FeatureFrame& f, uint32_t turn, uint32_t turns) {
                               (n.rows > 0 || (p.flags[i] & kSurface));
             // The layer behind a stair's step is surface as well, and what is behind that not deep: a surface row is
             // where it is thin only if all around it are surface.
-            if (!(bare ? n.deeper : n.ascends)) n.medial = bare ? 0 : kOffAxis * kUnits;
+            const bool leads =
+                n.ascends || static_cast<float>(n.farther) > static_cast<float>(old.depth) + kRise * kUnits;
+            if (!(bare ? n.deeper : leads)) n.medial = bare ? 0 : kOffAxis * kUnits;
             if (bare) {
                 n.depth = 0.5f * x.w / (kSupport * unit);
                 n.size = std::min(n.size, n.medial + 2 * n.depth);
             }
-            next_[i] = {store(n.depth), store(n.medial), store(n.size), 0};
+            next_[i] = {store(n.depth), store(n.medial), store(n.size), n.above};
             different += !(next_[i] == old);
         }
         changed.fetch_add(different, std::memory_order_relaxed);

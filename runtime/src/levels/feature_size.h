@@ -20,12 +20,14 @@ struct FeatureFrame {
 // far y is from the medial axis (Adams et al. 2007; thesis equation 2.1). The medial axis is made of the particles from
 // which no neighbour leads deeper, and all distances go from neighbour to neighbour:
 //  - depth: half a spacing in the rows that are surface, else the least of depth and way of a neighbour;
-//  - medial: 0 where no neighbour is deeper by kAscent of the way to it, else the least of medial and way of one;
+//  - above: the greatest depth of a neighbour, by which others see two neighbours far;
+//  - medial: about 0 where nobody that near is deeper by kAscent of the way to it, else the least of medial and way of
+//    a neighbour;
 //  - size: in surface rows, no more than their medial plus twice their depth (to the surface and back); nowhere more
 //    than size and way of a neighbour.
-// Particles at walls of colliders are not surface: a pool on a floor is as thick as it is deep. Where the surface has a
-// corner of 60 degrees or more, its bisector is no medial axis (kAscent is the cosine of half of what is left): a box
-// has small features only where it is thin.
+// Particles at walls of colliders are not surface: a pool on a floor is as thick as it is deep. The bisector of an edge
+// of 47 degrees or more is no medial axis (kAscent is the sine of half of that): a box has small features only where it
+// is thin.
 class FeatureSize {
 public:
     static constexpr float kUnits = 8; // of Feature in a spacing of level 0

@@ -43,9 +43,10 @@ struct LevelResult {
 //  - within two spacings of what flows, of what was melted and set again, and of other bodies it is fine, and a level
 //    coarser for about a spacing and a half more each (kBand);
 //  - where temperature changes within a particle by a share of what it lacks to melt, it is as fine as that asks for.
-// Liquid is fine at its surface, at walls, at solids and other liquids, and coarser with the same bands below, in
-// bodies that may be coarse. It splits in two where there is most room and merges with its nearest of the same kind, a
-// few at a time. (Levels of mass 2^l, by how far the surface is: thesis 3.4, Adams et al. 2007.)
+// Liquid, in bodies that may be coarse, is as coarse as half of its extended local feature size allows by the same
+// bands (FeatureSize): a thick pool up to its surface, while films, drips and necks are fine; and it is fine at walls,
+// at solids and other liquids, where it sets and melts. It splits in two where there is most room and merges with
+// its nearest of the same kind, a few at a time. (Levels of mass 2^l by feature size: thesis 3.4, Adams et al. 2007.)
 // Elastic solids are as other solids are, also while they move, but either the coarsest or the finest.
 class Levels {
 public:
@@ -64,12 +65,12 @@ public:
     bool splitFully(const LevelFrame& f, const uint32_t* rows, size_t count);
 
 private:
-    // Eighths of a spacing. What merged would split again at once if nothing lay between.
-    static constexpr uint8_t kMergeMargin = 6;
+    // Of Particles::want, eighths of a spacing. What merged would split again at once if nothing lay between.
+    static constexpr int kMergeMargin = 6;
     static void splitRow(const LevelFrame& f, size_t row, int to);
     void splitPicked(const LevelFrame& f, bool fully);
     static int levelOf(int want);
-    int target(const LevelFrame& f, size_t row) const;
+    int target(const LevelFrame& f, size_t row, int margin = 0) const;
     int targetOfBonded(const LevelFrame& f, size_t row) const;
     void mergeGroups(const LevelFrame& f);
     int mergeBonded(const LevelFrame& f, size_t row);
@@ -79,9 +80,9 @@ private:
     void bonded(const LevelFrame& f, LevelResult& result);
     void liquids(const LevelFrame& f, LevelResult& result);
     bool mergeSolid(const LevelFrame& f, size_t row);
-    void splitLiquid(const LevelFrame& f, size_t row);
-    bool mergeLiquid(const LevelFrame& f, size_t row);
-    void disturb(const LevelFrame& f, size_t row) const;
+    void splitLiquid(const LevelFrame& f, size_t row, bool calm);
+    bool mergeLiquid(const LevelFrame& f, size_t row, bool calm);
+    void disturb(const LevelFrame& f, size_t row, bool calm) const;
 
     int rows_ = 0, room_ = 0; // that the lists know; that may still come
     Array<uint8_t> next_, gone_;

@@ -19,7 +19,7 @@ enum ParticleFlag : uint8_t {
 
 // What Levels knows of how near the surface and the medial axis are, in eighths of a spacing (FeatureSize).
 struct Feature {
-    uint8_t depth, medial, size, unused;
+    uint8_t depth, medial, size, above;
     bool operator==(const Feature&) const = default;
 };
 

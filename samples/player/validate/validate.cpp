@@ -25,8 +25,8 @@ std::vector<Suite> suites() {
     return {
         {"motion",
          "liquids, solids and colliders at one step per frame",
-         {liquidCases(), filmCases(), heldCases(), impactCases(), colliderCases(), materialCases(), softCases(),
-          softContactCases(), softFrictionCases(), rigidCases(), pieceCases()}},
+         {liquidCases(), levelCases(), filmCases(), heldCases(), impactCases(), colliderCases(), materialCases(),
+          softCases(), softContactCases(), softFrictionCases(), rigidCases(), pieceCases()}},
         {"heat",
          "conduction, contact, phase change, radiation and loss",
          {conductionCases(), stefanCases(), radiationCases(), surfaceCases(), heatLevelCases(), undercoolingCases()}}};

@@ -41,6 +41,7 @@ struct ValidationCase {
 // One list per file; validate.cpp puts them together.
 using CaseList = std::vector<ValidationCase>;
 CaseList liquidCases();
+CaseList levelCases();
 CaseList colliderCases();
 CaseList materialCases();
 CaseList impactCases();
