@@ -12,22 +12,23 @@ namespace thaw {
 namespace {
 
 // Work by quality, the best first: ranges of equal sub-steps and steps within them. What shows least is given up first:
-// sub-steps beyond those that depth and walls ask for, iterations beyond convergence, rays, how often heat comes,
-// sub-steps that were asked for, iterations.
+// sub-steps beyond those that depth and walls ask for, iterations beyond convergence, rays, sub-steps that were asked
+// for, iterations. Heat comes in every step: one that comes every eighth has eight times the sub-cycles, and it is the
+// dearest frame that counts (candle at 2 ms: 1.9 ms of conduction in one frame of eight for 0.2 in each).
 struct Knobs {
-    float rays, heatInterval, leastSubSteps, subSteps, pressure, viscosity, heatCycles, raysPerSource;
+    float rays, leastSubSteps, subSteps, pressure, viscosity, heatCycles, raysPerSource;
 };
 struct Range {
     Knobs best, least;
 };
 constexpr Range kRanges[] = {
-    {{1.0f, 1, 8, 16, 12, 40, 1000, 64}, {1.0f, 1, 8, 16, 7, 16, 1000, 64}},
-    {{1.0f, 1, 4, 16, 16, 50, 1000, 32}, {1.0f, 1, 4, 16, 7, 16, 1000, 32}},
-    {{1.0f, 1, 2, 16, 18, 50, 1000, 16}, {1.0f, 1, 2, 16, 8, 18, 1000, 16}},
-    {{1.0f, 1, 1, 16, 20, 40, 1000, 16}, {1.0f, 1, 1, 16, 10, 24, 400, 16}},
-    {{0.8f, 1, 1, 12, 9, 20, 300, 14}, {0.25f, 1, 1, 4, 8, 12, 80, 9}},
-    {{0.25f, 2, 1, 3, 8, 12, 40, 6}, {0.125f, 2, 1, 2, 4, 12, 20, 4}},
-    {{0.125f, 4, 1, 1, 4, 10, 10, 4}, {0.05f, 8, 1, 1, 3, 6, 8, 4}},
+    {{1.0f, 8, 16, 12, 40, 1000, 64}, {1.0f, 8, 16, 7, 16, 1000, 64}},
+    {{1.0f, 4, 16, 16, 50, 1000, 32}, {1.0f, 4, 16, 7, 16, 1000, 32}},
+    {{1.0f, 2, 16, 18, 50, 1000, 16}, {1.0f, 2, 16, 8, 18, 1000, 16}},
+    {{1.0f, 1, 16, 20, 40, 1000, 16}, {1.0f, 1, 16, 10, 24, 400, 16}},
+    {{0.8f, 1, 12, 9, 20, 300, 14}, {0.25f, 1, 4, 8, 12, 80, 9}},
+    {{0.25f, 1, 3, 8, 12, 40, 6}, {0.125f, 1, 2, 4, 12, 20, 4}},
+    {{0.125f, 1, 1, 4, 10, 10, 4}, {0.05f, 1, 1, 3, 6, 8, 4}},
 };
 // Not below: at 2 pressure and 4 viscosity iterations the candle throws drops (19 in 20 s faster than 0.4 m/s
 // sideways), at 3 and 6 none. A budget that asks for less is exceeded, and the step says so.
@@ -38,16 +39,19 @@ constexpr int kClimbAfter = 15;     // good frames
 constexpr float kRayShare = 0.25f;
 
 // Of the steps, one in 250 may be late: each that is widens the margin by kWiden, the others narrow it.
-constexpr float kWiden = 0.06f, kLateShare = 0.004f, kRelax = 0.003f, kLeastMargin = 1.04f, kMostMargin = 1.6f;
-constexpr float kLateFrom = 0.97f; // of the budget
+constexpr float kWiden = 0.05f, kLateShare = 0.004f, kRelax = 0.0008f, kLeastMargin = 0.85f, kMostMargin = 1.5f;
+constexpr float kLateFrom = 0.95f;   // of the budget
+constexpr float kInterrupted = 1.7f; // times the prediction
 
 // Levels come after all that: what they save takes half a second to merge, and the beads get coarser. They do when the
 // quality of kLeastSeen has not fitted for so many frames on end, and a finer one comes back when twice the particles
 // would fit for much longer.
-constexpr int kLeastSeen = kLowest - kParts, kCoarserAfter = 10, kFinerAfter = 180, kMergeFrames = 40;
+constexpr int kLeastSeen = kLowest - kParts, kCoarserAfter = 10, kFinerAfter = 90, kMergeFrames = 40;
 
-constexpr float kStall = 0.25f; // ms that count as one
-constexpr int kStallWeight = 40, kStallsMost = 100, kLeaveOutMost = 3600;
+// A frame that waited so long for a worker, or took so many times what it should, may have shared a core with another
+// program: when that is more than about one in twelve, for a while. A virtual machine does so now and then by itself.
+constexpr float kStall = 0.25f, kSurprise = 1.4f; // ms, 1
+constexpr int kStallWeight = 12, kStallsMost = 140, kLeaveOutLeast = 600, kLeaveOutMost = 7200, kCalmFrames = 1200;
 
 thawWork workOf(int quality, const thawWork& least, const thawWork& most) {
     const auto& [a, b] = kRanges[quality / kParts];
@@ -59,8 +63,7 @@ thawWork workOf(int quality, const thawWork& least, const thawWork& most) {
     w.subSteps = within(whole(&Knobs::subSteps), least.subSteps, most.subSteps);
     w.pressureIterations = within(whole(&Knobs::pressure), least.pressureIterations, most.pressureIterations);
     w.viscosityIterations = within(whole(&Knobs::viscosity), least.viscosityIterations, most.viscosityIterations);
-    // Here less is more work.
-    w.heatInterval = std::max(std::min(whole(&Knobs::heatInterval), least.heatInterval), most.heatInterval);
+    w.heatInterval = most.heatInterval;
     w.rayRefresh = within(real(&Knobs::rays), least.rayRefresh, most.rayRefresh);
     w.leastSubSteps = within(whole(&Knobs::leastSubSteps), least.leastSubSteps, most.leastSubSteps);
     w.heatCycles = within(whole(&Knobs::heatCycles), least.heatCycles, most.heatCycles);
@@ -77,10 +80,12 @@ float Governor::predict(const Needs& n, const thawWork& w, int subStepsWanted) c
     const float steps = static_cast<float>(std::clamp(std::max(subStepsWanted, w.leastSubSteps), 1, w.subSteps));
     float ms = fixed_;
     if (n.listsStale) ms += particles * (perParticle_ * (n.movers > 0 ? steps : 1) + perExposure_);
+    if (n.holdStale) ms += particles * perRelabel_; // in every eighth step
     if (!n.timeScaleZero && (n.sourceOn || n.unequal || n.awayFromAmbient)) {
         // The peak frame counts, not the mean over the interval: a budget is kept in every frame.
         // Implicitly, it takes no more iterations than that.
-        const int passes = heatWanted_ <= w.heatCycles ? heatWanted_ : std::min(30, w.heatCycles);
+        const int wanted = static_cast<int>(std::lround(heatWanted_ * static_cast<float>(w.heatInterval)));
+        const int passes = std::max(1, wanted <= w.heatCycles ? wanted : std::min(30, w.heatCycles));
         ms += particles * perHeat_ * static_cast<float>(passes);
         if (n.sourceOn)
             ms += (static_cast<float>(n.exposed) * kRayShare + rayUse_ * static_cast<float>(mostRays(n, w))) * perRay_;
@@ -115,11 +120,12 @@ void Governor::chooseLevel(const Needs& n, float target, const thawWork& least, 
 }
 
 int Governor::chooseWorkers(int workers) {
-    if (leftOut_ > 0 && --leftOut_ == 0) {
-        fewer_ = 0, stalls_ = 0;
-        // With more of them everything is quicker, as far as anybody knows now.
-    } else if (stalls_ >= kStallsMost && fewer_ == 0 && workers > 1) {
+    if (leftOut_ > 0) {
+        if (--leftOut_ == 0) fewer_ = 0, stalls_ = 0, calm_ = 0;
+    } else if (stalls_ >= kStallsMost && workers > 1) {
         fewer_ = 1, leftOut_ = leaveOutFor_, leaveOutFor_ = std::min(2 * leaveOutFor_, kLeaveOutMost);
+    } else if (++calm_ % kCalmFrames == 0) {
+        leaveOutFor_ = std::max(leaveOutFor_ / 2, kLeaveOutLeast);
     }
     return std::max(1, workers - fewer_);
 }
@@ -138,7 +144,7 @@ Governor::Choice Governor::choose(const Needs& needs, float milliseconds, const 
     } else if (best < quality_) {
         goodFrames_ = fits(quality_ - 1, kClimbFill * target) ? goodFrames_ + 1 : 0;
         if (goodFrames_ >= kClimbAfter) {
-            const int step = std::max(1, (quality_ - best) / 8);
+            const int step = (quality_ - best + 3) / 4;
             quality_ -= fits(quality_ - step, kClimbFill * target) ? step : 1;
             goodFrames_ = 0;
         }
@@ -158,7 +164,7 @@ void Governor::learn(const Cost& c) {
         const float use = std::min(1.0f, static_cast<float>(c.rays) / static_cast<float>(c.mostRays));
         rayUse_ += (use > rayUse_ ? 0.5f : 0.05f) * (use - rayUse_);
     }
-    if (c.heatRan) heatWanted_ = std::max(1, c.heatWanted);
+    if (c.heatRan) heatWanted_ = static_cast<float>(std::max(1, c.heatWanted)) / static_cast<float>(c.heatInterval);
     if (c.movers > 0 && c.subSteps > 0) {
         const float its = static_cast<float>(c.viscosityIterations) / static_cast<float>(c.subSteps);
         viscosityPerSubStep_ += (its > viscosityPerSubStep_ ? 0.5f : 0.05f) * (its - viscosityPerSubStep_);
@@ -166,14 +172,20 @@ void Governor::learn(const Cost& c) {
     if (prices_ == Prices::learnt) learnPrices(c);
 }
 
+void Governor::Price::learn(float ms, double units) {
+    if (units < 1 || !std::isfinite(ms)) return;
+    // The first of all is dear: memory, threads and trees are new.
+    const float got = ms / static_cast<float>(units);
+    const float median = last[1] > 0   ? std::max(std::min(last[0], last[1]), std::min(std::max(last[0], last[1]), got))
+                         : last[0] > 0 ? std::min(last[0], got)
+                                       : std::min(got, now);
+    last[1] = last[0], last[0] = got;
+    // A machine that became slow is noticed in two frames.
+    now += (median > 1.25f * now ? 0.7f : 0.1f) * (median - now);
+}
+
 void Governor::learnPrices(const Cost& c) {
-    // Slowly, but for what is far dearer than it was: a machine that became slow is noticed in two frames. One frame
-    // that was interrupted proves little, so no frame more than doubles what is expected.
-    const auto blend = [](float& estimate, float ms, double units) {
-        if (units < 1 || !std::isfinite(ms)) return;
-        const float now = std::min(ms / static_cast<float>(units), 2 * estimate);
-        estimate += (now > 1.25f * estimate ? 0.5f : 0.1f) * (now - estimate);
-    };
+    const auto blend = [](Price& price, float ms, double units) { price.learn(ms, units); };
     const auto blendShare = [](float& share, float part, float whole) {
         if (whole > 0 && std::isfinite(part / whole)) share += 0.1f * (std::min(1.0f, part / whole) - share);
     };
@@ -183,8 +195,12 @@ void Governor::learnPrices(const Cost& c) {
         blend(perParticle_, s[thawStage_neighbors], n * std::max(1, c.subSteps));
         const float after = s[thawStage_levels] + s[thawStage_stats] + 0.5f * s[thawStage_phase],
                     all = s[thawStage_exposure] + s[thawStage_phase] + s[thawStage_levels] + s[thawStage_stats];
-        blend(perExposure_, all, n);
-        blendShare(afterShare_, after, all);
+        // What looks for pieces that lost their hold takes as long as all else of it together.
+        const float relabel = c.relabelled ? std::max(0.0f, all - perExposure_ * static_cast<float>(n)) : 0;
+        if (c.relabelled)
+            blend(perRelabel_, relabel, n);
+        else
+            blend(perExposure_, all, n), blendShare(afterShare_, after, all);
     }
     if (c.rays > 0) blend(perRay_, s[thawStage_radiation], c.rays + kRayShare * static_cast<double>(c.exposed));
     if (c.heatRan) blend(perHeat_, s[thawStage_conduction] + s[thawStage_loss], n * std::max(1, c.heatPasses));
@@ -197,20 +213,23 @@ void Governor::learnPrices(const Cost& c) {
         if (c.pressureIterations > 0)
             blend(perPressure_, s[thawStage_pressure], static_cast<double>(c.movers) * c.pressureIterations);
     }
-    stalls_ = std::max(0, c.stalledMs > kStall ? stalls_ + kStallWeight : stalls_ - 1);
+    const bool stalled = c.stalledMs > kStall || (c.predictedMs > 0 && c.stepMs > kSurprise * c.predictedMs);
+    stalls_ = std::clamp(stalled ? stalls_ + kStallWeight : stalls_ - 1, 0, kStallsMost);
     if (!(c.predictedMs > 0)) return;
-    const bool late = c.late || !(c.stepMs <= margin_ * c.predictedMs * kLateFrom);
+    // What took far longer than it should was interrupted, and no plan could have known.
+    if (!(c.stepMs <= kInterrupted * c.predictedMs)) return;
+    const bool late = c.late || !(c.stepMs <= kLateFrom * c.budgetMs);
     margin_ += late ? kWiden : -(kWiden * kLateShare + kRelax * (margin_ - kLeastMargin));
     margin_ = std::clamp(margin_, kLeastMargin, kMostMargin);
 }
 
 uint64_t Governor::hash(uint64_t h) const {
-    const float f[2] = {rayUse_, viscosityPerSubStep_};
-    uint32_t bits[2];
+    const float f[3] = {rayUse_, viscosityPerSubStep_, heatWanted_};
+    uint32_t bits[3];
     std::memcpy(bits, f, sizeof bits);
-    for (const uint32_t v : {bits[0], bits[1], static_cast<uint32_t>(heatWanted_), static_cast<uint32_t>(quality_),
-                             static_cast<uint32_t>(goodFrames_), static_cast<uint32_t>(finest_),
-                             static_cast<uint32_t>(tight_), static_cast<uint32_t>(roomy_)})
+    for (const uint32_t v :
+         {bits[0], bits[1], bits[2], static_cast<uint32_t>(quality_), static_cast<uint32_t>(goodFrames_),
+          static_cast<uint32_t>(finest_), static_cast<uint32_t>(tight_), static_cast<uint32_t>(roomy_)})
         h = hashCombine(h, v);
     return h;
 }

@@ -37,12 +37,14 @@ public:
 
     struct Cost { // of a step
         float stageMs[thawStage_count];
-        float stepMs, stalledMs; // of stepMs, what the caller waited for workers that the system did not run
-        float predictedMs;       // of the choice; 0: it was none of this governor's
+        float stepMs, budgetMs,
+            stalledMs;     // stalledMs: of stepMs, what the caller waited for workers that the system did not run
+        float predictedMs; // of the choice; 0: it was none of this governor's
         int particles, movers, exposed, rays, mostRays, subSteps, pressureIterations,
             viscosityIterations;    // iterations summed
         int heatWanted, heatPasses; // explicit sub-cycles of conduction that the step needed; passes that it did
-        bool heatRan, late;
+        int heatInterval;
+        bool heatRan, late, relabelled;
     };
     void learn(const Cost& cost);
     uint64_t hash(uint64_t h) const; // of fixed prices: all that it remembers
@@ -56,22 +58,31 @@ private:
     void learnPrices(const Cost& cost);
 
     Prices prices_;
-    // Milliseconds per unit, start values from a quiet machine with 2 cores: the price list of work units.
-    float perParticle_ = 5e-5f;  // lists and sort, per particle and sub-step
-    float perExposure_ = 2e-5f;  // exposure, hold, levels and stats, per particle
-    float perRay_ = 4e-4f;       // per ray; a quarter of it per exposed particle
-    float perHeat_ = 1.5e-5f;    // conduction, loss, integration, per particle and pass
-    float perMover_ = 6e-5f;     // forces, collision, per mover and sub-step
-    float perViscosity_ = 1e-5f; // per mover and iteration
-    float perPressure_ = 1e-5f;  // per mover and iteration
+    // Milliseconds per unit, which follow the median of the last three: one frame that was interrupted says nothing.
+    struct Price {
+        float now;
+        float last[2] = {0, 0};
+        Price(float start) : now(start) {}
+        void learn(float ms, double units);
+        operator float() const { return now; }
+    };
+    // Start values from a quiet machine with 2 cores: the price list of work units.
+    Price perParticle_ = 5e-5f;  // lists and sort, per particle and sub-step
+    Price perExposure_ = 2e-5f;  // exposure, hold, levels and stats, per particle
+    Price perRelabel_ = 2e-5f;   // looking for pieces that lost their hold, per particle
+    Price perRay_ = 4e-4f;       // per ray; a quarter of it per exposed particle
+    Price perHeat_ = 1.5e-5f;    // conduction, loss, integration, per particle and pass
+    Price perMover_ = 6e-5f;     // forces, collision, per mover and sub-step
+    Price perViscosity_ = 1e-5f; // per mover and iteration
+    Price perPressure_ = 1e-5f;  // per mover and iteration
     float fixed_ = 0.05f;        // per step
     // Shares of the above that come after the iterations: collision of perMover_; levels and stats of perExposure_.
     float collisionShare_ = 0.5f, afterShare_ = 0.5f;
 
     float rayUse_ = 1;              // of the rays that could be, those that were: what rests is not looked at again
     float viscosityPerSubStep_ = 8; // iterations that a sub-step really takes
-    int heatWanted_ = 1;            // sub-cycles of the last heat
-    float margin_ = 1.15f;          // of the budget over what may be predicted
+    float heatWanted_ = 1;          // sub-cycles of the last heat, over its interval
+    float margin_ = 1.02f;          // of the budget over what may be predicted
     int quality_ = 0;               // 0 is the best
     int goodFrames_ = 0;
     int finest_ = 0; // level
@@ -80,8 +91,9 @@ private:
     // Workers that the system takes away for a slice at a time cost more than they bring.
     int fewer_ = 0;         // workers left out
     int stalls_ = 0;        // recent ones count for more
-    int leaveOutFor_ = 300; // frames, longer every time
+    int leaveOutFor_ = 600; // frames, longer every time
     int leftOut_ = 0;       // frames to go
+    int calm_ = 0;          // frames since
 };
 
 } // namespace thaw

@@ -206,11 +206,11 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     }
     LevelResult levelResult;
     expectRest(0);
-    if (on(thawStage_levels) && safePoints_.late()) {
-        levelsChanged_ = true; // the next step sees to it
-    } else if (on(thawStage_levels)) {
+    if (on(thawStage_levels)) {
         auto t = timed(thawStage_levels);
-        levelResult = levels_.apply(levelFrame(work, dt));
+        LevelFrame frame = levelFrame(work, dt);
+        if (safePoints_.late()) frame.mostSplits = 0; // merging is what makes the next steps cheaper
+        levelResult = levels_.apply(frame);
         if (levelResult.split + levelResult.merged > 0) listsStale_ = true;
         if (levelResult.refused) status |= thawStep_splitsClipped;
         levelsChanged_ = levelResult.split + levelResult.merged > 0;
@@ -253,7 +253,8 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     cost.subSteps = subSteps, cost.pressureIterations = counters_.pressureIterations;
     cost.viscosityIterations = counters_.viscosityIterations, cost.heatRan = heated;
     cost.heatWanted = heatStats.cyclesWanted, cost.heatPasses = heatStats.passes;
-    cost.stepMs = profile.step, cost.stalledMs = tasks.takeStalledMs();
+    cost.heatInterval = work.heatInterval, cost.relabelled = stepsSinceRelabel_ == 0 && on(thawStage_phase);
+    cost.stepMs = profile.step, cost.budgetMs = budget.milliseconds, cost.stalledMs = tasks.takeStalledMs();
     cost.predictedMs = plan.predictedMs, cost.late = safePoints_.lateAt() > 0;
     governor_.learn(cost), units_.learn(cost);
     if (cost.late) status |= thawStep_late, plan.work.lateAfter = safePoints_.lateAt();
