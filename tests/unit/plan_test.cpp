@@ -22,7 +22,7 @@ Needs busy() {
 TEST_CASE("plan: stages run only where the scene asks, and say why not") {
     Needs n = busy();
     thawPlan p = makePlan(n, kFull);
-    for (int s = 0; s < thawStage_count; ++s) CHECK(p.enabled[s] == (s != thawStage_levels));
+    for (int s = 0; s < thawStage_count; ++s) CHECK(p.enabled[s] == (s != thawStage_levels && s != thawStage_control));
     CHECK(p.reason[thawStage_levels] == thawReason_oneLevel);
     n.levels = true;
     CHECK(makePlan(n, kFull).enabled[thawStage_levels]);

@@ -97,6 +97,10 @@ typedef struct thawHeatSourceId {
     uint32_t index1;
     uint16_t world, generation;
 } thawHeatSourceId;
+typedef struct thawPathId {
+    uint32_t index1;
+    uint16_t world, generation;
+} thawPathId;
 
 typedef struct thawVec3 {
     float x, y, z;
@@ -163,6 +167,7 @@ typedef struct thawWorldDef {
     int32_t maxBodies;        /* range 1..65535, default 64 */
     int32_t maxColliders;     /* range 1..65535, default 64 */
     int32_t maxHeatSources;   /* range 1..1024, default 16 */
+    int32_t maxPaths;         /* range 1..1024, default 64 */
     thawVec3 gravity;         /* m/s^2, each |.| <= 1000, default (0, -9.81, 0) */
     float ambientTemperature; /* K, range 0..1e5, default 293.15; air and far surroundings */
     float convection;         /* W/(m^2 K), heat transfer to ambient air; range 0..1e4, default 10 */
@@ -428,6 +433,52 @@ THAW_API thawResult thawCreateHeatSource(thawWorld* world, const thawHeatSourceD
 THAW_API thawResult thawHeatSource_Set(thawWorld* world, thawHeatSourceId id, const thawHeatSourceDef* def);
 THAW_API thawResult thawDestroyHeatSource(thawWorld* world, thawHeatSourceId id);
 
+/* ---- control: where the melt goes ------------------------------------------------------------------------------- */
+
+/* A line that melt flows along. What comes within `reach` of it is drawn to it and follows it until it is at the end or
+ * a quarter more than the reach away. Within `radius`, the half width of the stream, it is driven at the speed of the
+ * path; outside of the inner half of the radius it is drawn back. Both as by a drag inside the viscous solve. What is
+ * finer than a particle's neighbourhood stays as it is, the more the less the strength. Where several paths begin
+ * together and part later, what follows is shared among them by their `share`. */
+typedef struct thawPathDef {
+    uint32_t structSize, cookie;
+    const thawVec3* points;  /* m, pointCount of them, in the order of the flow, each within 1e5; points that coincide
+                                count  once. In the space of the collider, if one is given */
+    int32_t pointCount;      /* range 2..1000000; at least two must differ */
+    bool smooth;             /* default true: a spline through the points (centripetal Catmull-Rom); false: straight */
+    bool enabled;            /* default true */
+    thawColliderId collider; /* that it moves with, and is destroyed with; default null: it stands still */
+    float radius;            /* m, half the width of the stream, range 1e-4..10, default 0.01 */
+    float reach;       /* m, from where melt is drawn to it, range 1e-4..10, at least the radius; default 0: twice the
+                          radius */
+    float strength;    /* 0: nothing, 0.5: a hint, 1: a lock; range 0..1, default 0.8 */
+    float speed;       /* m/s along it, range 0..100, default 0.05; 0: its own */
+    float arrivalTime; /* s from when the first melt follows it to when it is at the end, goes before speed; range
+                          0..1e4, default 0: speed counts */
+    float share;       /* of what flows where paths part, in relation to theirs; range 0..1e6, default 1 */
+    int32_t priority;  /* where paths cross, melt that follows none yet takes the highest; default 0 */
+    float startAbsorptivity; /* 1, of thermal radiation, at the first point, fading over a radius: melting starts there;
+                               range 0..1, default NaN: the material's */
+} thawPathDef;
+THAW_API void thawInitPathDef(thawPathDef* def);
+THAW_API thawResult thawCreatePath(thawWorld* world, const thawPathDef* def, thawPathId* outId);
+/* Replaces every property; takes effect in the next step. What follows it goes on from where it is nearest. */
+THAW_API thawResult thawPath_Set(thawWorld* world, thawPathId id, const thawPathDef* def);
+/* What followed it flows freely. */
+THAW_API thawResult thawDestroyPath(thawWorld* world, thawPathId id);
+
+typedef struct thawPathState {
+    float length;                     /* m */
+    float mass;                       /* kg of melt that follows it */
+    float captured, arrived, spilled; /* kg, ever: that came to follow it, that went off its end, that got lost */
+    float meanDistance;               /* m from it, of what follows it */
+    float front;                      /* m along it, of the foremost twentieth */
+    float
+        arrivalTime; /* s from the first capture until a twentieth of what was captured was at the end; NaN: not yet */
+    float speed;     /* m/s that it asks for now */
+} thawPathState;
+THAW_API thawResult thawPath_GetState(const thawWorld* world, thawPathId id, thawPathState* out);
+
 /* ---- plan and budget -------------------------------------------------------------------------------------------- */
 
 typedef enum thawStage {
@@ -436,9 +487,10 @@ typedef enum thawStage {
     thawStage_exposure,   /* which particles are surface; normal and area */
     thawStage_radiation,  /* rays and irradiance from the sources */
     thawStage_conduction,
-    thawStage_loss,   /* emission and convection to ambient */
-    thawStage_phase,  /* temperature, liquid fraction, letting go and setting */
-    thawStage_forces, /* gravity, cohesion, adhesion */
+    thawStage_loss,    /* emission and convection to ambient */
+    thawStage_phase,   /* temperature, liquid fraction, letting go and setting */
+    thawStage_control, /* who follows which path, and how fast */
+    thawStage_forces,  /* gravity, cohesion, adhesion */
     thawStage_viscosity,
     thawStage_pressure,
     thawStage_collision, /* walls, swept motion, positions */
@@ -458,7 +510,8 @@ typedef enum thawReason {
     thawReason_equilibrium,    /* all at ambient temperature and no source */
     thawReason_timeScaleZero,  /* heat is switched off by thermalTimeScale = 0 */
     thawReason_interval,       /* not due in this step: see heatInterval */
-    thawReason_oneLevel        /* no solid that was filled with coarse particles */
+    thawReason_oneLevel,       /* no solid that was filled with coarse particles */
+    thawReason_noControl       /* no path that is on */
 } thawReason;
 /* A stage's name and a reason in words; "" when out of range. Static storage. */
 THAW_API const char* thawStageName(thawStage stage);
@@ -551,9 +604,9 @@ typedef struct thawParticleView {
 } thawParticleView;
 THAW_API void thawWorld_GetParticles(const thawWorld* world, thawParticleView* out);
 /* Extended local feature size of every particle, m, in the order of the view: how near the surface is, plus how thick
- * the melt is there (distance of the surface to its medial axis; Adams et al. 2007). About 1 spacing in films and drips,
- * 32 spacings at the most, right within a spacing. Takes a neighbour search: for pictures and tools. Changes nothing
- * that a step depends on. The array belongs to the world, until the next call of this or a step. */
+ * the melt is there (distance of the surface to its medial axis; Adams et al. 2007). About 1 spacing in films and
+ * drips, 32 spacings at the most, right within a spacing. Takes a neighbour search: for pictures and tools. Changes
+ * nothing that a step depends on. The array belongs to the world, until the next call of this or a step. */
 THAW_API thawResult thawWorld_GetFeatureSizes(thawWorld* world, const float** out);
 
 /* A piece of solid that nothing anchors: cut loose by melting, or a body that stands free. It falls, lands, is pushed
@@ -600,6 +653,8 @@ typedef struct thawLedger {
     double emitted;                         /* J by thermal radiation, net of what ambient sends back */
     double convected;                       /* J to the air */
     double energyNow;                       /* J, sum of m H */
+    double controlImpulse[3];               /* N s, momentum that paths gave */
+    double controlEnergy;                   /* J, kinetic energy that paths gave, < 0: took */
     double massError;                       /* |massNow - added + removed + burnt| / added */
     double energyError; /* |energyNow - (added - removed - burnt + painted + absorbed + contact - emitted -
                            convected)| / largest sum moved */
@@ -609,7 +664,7 @@ THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);
 typedef struct thawCounters {
     int32_t particles, moving, fixed, surface, capacity; /* moving: liquid, and rigid pieces that are awake */
     int32_t pieces;                                      /* rigid ones, awake or asleep */
-    int32_t bodies, colliders, heatSources, materials;
+    int32_t bodies, colliders, heatSources, materials, paths;
     int32_t subSteps, pressureIterations, viscosityIterations; /* of the last step; iterations summed over sub-steps */
     int32_t rays, neighborsMax;
     int32_t levels[4];      /* particles by level */

@@ -127,6 +127,7 @@ void checkWorldDef(Check& c, const thawWorldDef* d) {
     c.range("maxBodies", d->maxBodies, 1, 65535);
     c.range("maxColliders", d->maxColliders, 1, 65535);
     c.range("maxHeatSources", d->maxHeatSources, 1, 1024);
+    c.range("maxPaths", d->maxPaths, 1, 1024);
     c.finite("gravity", d->gravity, 1000);
     c.range("ambientTemperature", d->ambientTemperature, 0, 1e5);
     c.range("convection", d->convection, 0, 1e4);
@@ -199,6 +200,26 @@ void checkSource(Check& c, const thawHeatSourceDef* d) {
     c.range("temperature", d->temperature, 0, 1e9);
     c.range("emissivity", d->emissivity, 0, 1);
     c.range("irradiance", d->irradiance, -1e12, 1e12);
+}
+
+void checkPath(Check& c, const World& w, const thawPathDef* d) {
+    c.initialised("pathDef", d);
+    if (!c.ok()) return;
+    c.range("pointCount", d->pointCount, 2, 1e6);
+    if (c.ok() && !d->points) c.fail(thawResult_invalidArgument, "points: is NULL");
+    for (int32_t k = 0; c.ok() && k < d->pointCount; ++k)
+        if (const thawVec3 x = d->points[k]; !(std::abs(x.x) <= 1e5 && std::abs(x.y) <= 1e5 && std::abs(x.z) <= 1e5))
+            c.fail(thawResult_invalidArgument, "points[%d]: must be within 1e5 m, got (%g, %g, %g)", k,
+                   static_cast<double>(x.x), static_cast<double>(x.y), static_cast<double>(x.z));
+    if (d->collider.index1 != 0 && !alive(w, d->collider, w.colliderSlots))
+        c.fail(thawResult_staleId, "collider: is not alive in this world");
+    c.range("radius", d->radius, 1e-4, 10);
+    if (d->reach != 0) c.range("reach", d->reach, d->radius, 10);
+    c.range("strength", d->strength, 0, 1);
+    c.range("speed", d->speed, 0, 100);
+    c.range("arrivalTime", d->arrivalTime, 0, 1e4);
+    c.range("share", d->share, 0, 1e6);
+    if (!std::isnan(d->startAbsorptivity)) c.range("startAbsorptivity", d->startAbsorptivity, 0, 1);
 }
 
 void checkWork(Check& c, const char* of, const thawWork& w) {
@@ -341,8 +362,8 @@ const char* thawStepStatusString(uint32_t bit) {
 
 const char* thawStageName(thawStage stage) {
     static constexpr const char* kNames[thawStage_count] = {
-        "inputs", "neighbors", "exposure", "radiation", "conduction", "loss", "phase",
-        "forces", "viscosity", "pressure", "collision", "levels",     "stats"};
+        "inputs",  "neighbors", "exposure",  "radiation", "conduction", "loss",   "phase",
+        "control", "forces",    "viscosity", "pressure",  "collision",  "levels", "stats"};
     return stage >= 0 && stage < thawStage_count ? kNames[stage] : "";
 }
 
@@ -368,6 +389,8 @@ const char* thawReasonString(thawReason reason) {
         return "not due in this step";
     case thawReason_oneLevel:
         return "no solid that could be coarse";
+    case thawReason_noControl:
+        return "no path is on";
     }
     return "";
 }
@@ -378,7 +401,7 @@ void thawInitWorldDef(thawWorldDef* def) {
     def->structSize = sizeof *def, def->cookie = thaw::kDefCookie;
     def->particleSpacing = 0.002f;
     def->maxParticles = 32768;
-    def->maxMaterials = 16, def->maxBodies = 64, def->maxColliders = 64, def->maxHeatSources = 16;
+    def->maxMaterials = 16, def->maxBodies = 64, def->maxColliders = 64, def->maxHeatSources = 16, def->maxPaths = 64;
     def->gravity = {0, -9.81f, 0};
     def->ambientTemperature = 293.15f;
     def->convection = 10;
@@ -674,6 +697,55 @@ thawResult thawDestroyHeatSource(thawWorld* world, thawHeatSourceId id) {
         w.sources[id.index1 - 1] = {};
         w.sourceSlots[id.index1 - 1].alive = false;
     });
+}
+
+void thawInitPathDef(thawPathDef* def) {
+    if (!def) return;
+    *def = thawPathDef{};
+    def->structSize = sizeof *def, def->cookie = thaw::kDefCookie;
+    def->smooth = def->enabled = true;
+    def->radius = 0.01f, def->strength = 0.8f, def->speed = 0.05f, def->share = 1;
+    def->startAbsorptivity = std::numeric_limits<float>::quiet_NaN();
+}
+
+thawResult thawCreatePath(thawWorld* world, const thawPathDef* def, thawPathId* outId) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!outId) return c.fail(thawResult_invalidArgument, "outId: is NULL");
+        *outId = {};
+        checkPath(c, w, def);
+        if (!c.ok()) return;
+        std::string message;
+        uint32_t index1 = 0;
+        if (const thawResult r = w.setPath(*def, message, index1); r != thawResult_ok)
+            return c.fail(r, "%s", message.c_str());
+        *outId = {index1, w.tag, w.pathSlots[index1 - 1].generation};
+    });
+}
+
+thawResult thawPath_Set(thawWorld* world, thawPathId id, const thawPathDef* def) {
+    return guarded(world, [&](World& w, Check& c) {
+        checkPath(c, w, def);
+        if (c.ok() && !alive(w, id, w.pathSlots)) c.fail(thawResult_staleId, "path: is not alive in this world");
+        if (!c.ok()) return;
+        std::string message;
+        uint32_t index1 = id.index1;
+        if (const thawResult r = w.setPath(*def, message, index1); r != thawResult_ok) c.fail(r, "%s", message.c_str());
+    });
+}
+
+thawResult thawDestroyPath(thawWorld* world, thawPathId id) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!alive(w, id, w.pathSlots)) return c.fail(thawResult_staleId, "path: is not alive in this world");
+        w.removePath(id.index1 - 1);
+    });
+}
+
+thawResult thawPath_GetState(const thawWorld* world, thawPathId id, thawPathState* out) {
+    if (!world || !out) return thawResult_invalidArgument;
+    *out = {};
+    if (!alive(world->world, id, world->world.pathSlots)) return thawResult_staleId;
+    *out = world->world.pathState(id.index1 - 1);
+    return thawResult_ok;
 }
 
 void thawInitBudget(thawBudget* budget) {

@@ -47,6 +47,24 @@ struct HeatFrame {
     bool undercools = false;              // some material does
     int bodyCount = 0;                    // of which some may be gone; 0: bodies are not told apart
     const Reference* reference = nullptr; // null: no particle is coarse
+    // Where the start of a path takes up more or less than its material: fades from the centre as 1 - (d / radius)^2.
+    struct Spot {
+        Vec3 center;
+        float radius, absorptivity;
+    };
+    const Spot* spots = nullptr;
+    int spotCount = 0;
+
+    // Of a row for thermal radiation, 0..1.
+    float absorptivityOf(size_t row) const {
+        float a = absorptivity(particles.absorbs[row], materials[particles.material[row]].def.absorptivity);
+        for (int s = 0; s < spotCount; ++s) {
+            const Vec3 d = particles.position[row].xyz() - spots[s].center;
+            const float fade = 1 - dot(d, d) / (spots[s].radius * spots[s].radius);
+            if (fade > 0) a += fade * (spots[s].absorptivity - a);
+        }
+        return a;
+    }
 };
 
 struct HeatStats {

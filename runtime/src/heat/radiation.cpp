@@ -291,7 +291,7 @@ void Radiation::Impl::weigh(const HeatFrame& f, int begin, int end) {
         p.rayShares[row] = shares;
         p.rayChange[row] = std::min(change, 1e30f);
         if (!unknown && all > 0 && p.rayAge[row] < kOldest) ++p.rayAge[row];
-        power[row] = received * absorptivity(p.absorbs[row], f.materials[p.material[row]].def.absorptivity) * r.area;
+        power[row] = received * f.absorptivityOf(row) * r.area;
         possible[at] = all;
     }
 }
@@ -414,8 +414,7 @@ int Radiation::Impl::look(const HeatFrame& f, int begin, int end, Batch& batch) 
     }
     for (int e = begin; e < end; ++e) {
         const size_t at = static_cast<size_t>(e), row = static_cast<size_t>(exposed[at]);
-        const float absorbs =
-            absorptivity(p.absorbs[row], f.materials[p.material[row]].def.absorptivity) * p.normal[row].w;
+        const float absorbs = f.absorptivityOf(row) * p.normal[row].w;
         const float gain = gained[e - begin] * absorbs;
         if (importance[at] > 0)
             power[row] = gain, p.rayAge[row] = 1, p.rayChange[row] = 0;

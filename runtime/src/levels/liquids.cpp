@@ -108,7 +108,7 @@ bool Levels::mergeLiquid(const LevelFrame& f, size_t i, bool calm) {
         if (j >= static_cast<uint32_t>(rows_)) return false;
         if (p.fixed(static_cast<int>(j)) || gone_[j] || p.level[j] != level || p.body[j] != p.body[i] ||
             p.material[j] != p.material[i] || p.bondSlot[j] || ((p.flags[j] ^ p.flags[i]) & kUnseeded) ||
-            p.absorbs[j] != p.absorbs[i] || target(f, j) <= level)
+            p.absorbs[j] != p.absorbs[i] || p.follows[j] != p.follows[i] || target(f, j) <= level)
             return true;
         const float d = length(p.position[j].xyz() - x);
         const float speed = length(p.velocity[j].xyz() - p.velocity[i].xyz());

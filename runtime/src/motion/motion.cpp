@@ -148,7 +148,9 @@ void Motion::begin(const MotionFrame& f) {
             const float h = p.position[i].w, spacing = h / kSupport, density = 1 / f.invDensity[i];
 
             const int n = contactCount_[i];
-            piece_[i] = held_[i].w > 0 || (n && contact_[i * kContacts].w < h) ? kLeaning : kUnknown;
+            piece_[i] = held_[i].w > 0 || (f.guide && f.guide[i].w > 0) || (n && contact_[i * kContacts].w < h)
+                            ? kLeaning
+                            : kUnknown;
             const Vec4 fixed = held_[i];
             held_[i] = heldSurface(fixed, h);
             float solid = 0;

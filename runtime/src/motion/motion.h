@@ -32,12 +32,15 @@ struct MotionFrame {
     Vec3 gravity;
     float spacing; // m, of level 0
     int pressureIterations, viscosityIterations;
-    float heldSpeed = 0;              // m/s, of the fastest fixed particle: what hangs on a collider moves with it
-    Bonds* bonds = nullptr;           // null, or without any: nothing is elastic
-    Rigid* rigid = nullptr;           // pieces that move as one, when there are any
-    RigidLiquid* coupling = nullptr;  // with rigid
-    Reference* reference = nullptr;   // of untouched solids, when there are any that are coarse
-    SafePoints* safePoints = nullptr; // at each of which iterations may be given up; null: none are
+    float heldSpeed = 0;             // m/s, of the fastest fixed particle: what hangs on a collider moves with it
+    Bonds* bonds = nullptr;          // null, or without any: nothing is elastic
+    Rigid* rigid = nullptr;          // pieces that move as one, when there are any
+    RigidLiquid* coupling = nullptr; // with rigid
+    Reference* reference = nullptr;  // of untouched solids, when there are any that are coarse
+    // Per mover: xyz velocity in m/s that it shall have, w how much more its mass weighs for that (an implicit drag);
+    // null: nothing guides the flow.
+    const Vec4* guide = nullptr;
+    SafePoints* safePoints = nullptr;          // at each of which iterations may be given up; null: none are
     int leastViscosity = 1, leastPressure = 1; // iterations that are done however late it is
 
     BondFrame bondFrame() const {
@@ -47,6 +50,7 @@ struct MotionFrame {
 
 struct MotionStats {
     int viscosityIterations = 0, pressureIterations = 0;
+    double guideImpulse[3] = {}, guideEnergy = 0; // kg m/s, J that the guide gave
     bool iterationsClipped = false, velocityClamped = false;
     float maxSpeed = 0, maxCompression = 0, meanCompression = 0, apparentViscosity = 0;
 };
@@ -124,6 +128,7 @@ private:
     void applyViscosity(const MotionFrame& f, const Vec4* velocity, int begin, int end, bool walls);
     void addSprings(const MotionFrame& f, int begin, int end);
     bool regrip(const MotionFrame& f);
+    void bookGuide(const MotionFrame& f);
     void reportGrip(const MotionFrame& f);
     bool gripped(size_t i) const { return bonded_ && grip_[i].w > 0; }
     bool slides(size_t i) const { return bonded_ && grip_[i].w >= kSlides; }

@@ -73,6 +73,11 @@ void Motion::applyViscosity(const MotionFrame& f, const Vec4* velocity, int begi
         image_[i].setXyz(image_[i].xyz() + Vec3{a.x * v.x + b.x * v.y + b.y * v.z, b.x * v.x + a.y * v.y + b.z * v.z,
                                                 b.y * v.x + b.z * v.y + a.z * v.z});
     }
+    if (f.guide)
+        for (int r = 8 * begin; r < last; ++r) {
+            const size_t i = static_cast<size_t>(r);
+            image_[i].setXyz(image_[i].xyz() + f.guide[i].w * trait_[i].z * velocity[i].xyz());
+        }
     for (int r = last; r < 8 * end; ++r) image_[static_cast<size_t>(r)] = {};
     if (!bonded_) return;
     for (int r = 8 * begin; r < last && f.coupling; ++r) {
@@ -131,6 +136,22 @@ void Motion::thicken(const MotionFrame& f) {
     });
 }
 
+// What the guide's drag did to momentum and, on the mean of the velocities before and after, to kinetic energy.
+void Motion::bookGuide(const MotionFrame& f) {
+    const Particles& p = f.particles;
+    for (int r = 0; r < p.moverCount; ++r) {
+        const size_t i = static_cast<size_t>(r);
+        const Vec4 g = f.guide[i], v = p.velocity[i], u = before_[i];
+        if (!(g.w > 0)) continue;
+        const double weight = static_cast<double>(g.w) * trait_[i].z;
+        const double J[3] = {weight * (static_cast<double>(g.x) - v.x), weight * (static_cast<double>(g.y) - v.y),
+                             weight * (static_cast<double>(g.z) - v.z)};
+        for (int a = 0; a < 3; ++a) stats_.guideImpulse[a] += J[a];
+        stats_.guideEnergy += 0.5 * (J[0] * (static_cast<double>(u.x) + v.x) + J[1] * (static_cast<double>(u.y) + v.y) +
+                                     J[2] * (static_cast<double>(u.z) + v.z));
+    }
+}
+
 void Motion::viscosity(const MotionFrame& f) {
     Particles& p = f.particles;
     if (p.moverCount == 0) return;
@@ -180,6 +201,10 @@ void Motion::viscosity(const MotionFrame& f) {
                 if (wallsMove_) wallPush_[i] = {push.x, push.y, push.z, 0};
                 diagonal.setXyz(diagonal.xyz() + a.xyz()), cross.setXyz(cross.xyz() + b.xyz());
             }
+            if (f.guide) {
+                const float drag = f.guide[i].w * mass;
+                diagonal.setXyz(diagonal.xyz() + Vec3{drag, drag, drag});
+            }
             if (bonded_ && f.coupling)
                 if (const SoftContacts::Contact* c = f.coupling->softOf(i)) {
                     const Vec3 x = c->drag(f.dt, {1, 0, 0}), y = c->drag(f.dt, {0, 1, 0}), z = c->drag(f.dt, {0, 0, 1});
@@ -217,6 +242,7 @@ void Motion::viscosity(const MotionFrame& f) {
                 const size_t i = static_cast<size_t>(r);
                 Vec3 res = trait_[i].z * before_[i].xyz() - image_[i].xyz();
                 if (wallsMove_ && contactCount_[i]) res += wallPush_[i].xyz();
+                if (f.guide) res += f.guide[i].w * trait_[i].z * f.guide[i].xyz();
                 if (bonded_ && f.coupling)
                     if (const SoftContacts::Contact* c = f.coupling->softOf(i)) res += c->push(f.dt);
                 residual_[i] = {res.x, res.y, res.z, 0};
@@ -336,7 +362,8 @@ void Motion::viscosity(const MotionFrame& f) {
     if (sound && pieces) pieces->show(f);
     if (sound && bonded_ && reporting_) findResidual(), reportGrip(f);
     if (sound && pieces) returnShared(f);
-    if (sound) returnMomentum(f, wallsMove_ || reporting_ || heldMoves_);
+    if (sound) returnMomentum(f, wallsMove_ || reporting_ || heldMoves_ || f.guide);
+    if (sound && f.guide) bookGuide(f);
     if (pieces) pieces->finish(f, sound);
     if (sound) reportHeldDrag(f);
     if (sound && reporting_)

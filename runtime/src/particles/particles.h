@@ -43,6 +43,8 @@ struct Feature {
     X(uint32_t, id)          /* stable, never reused */                                                                \
     X(uint32_t, bondSlot)    /* where its bonds are (Bonds), 0 none */                                                 \
     X(uint32_t, fine) /* first of its points in Reference + 1; 0: it has none, or not the ones it was filled with */   \
+    X(float, along) /* m on the path that it follows */                                                                \
+    X(uint16_t, follows) /* path that guides it, its slot + 1; 0: none */                                              \
     X(uint16_t, body)                                                                                                  \
     X(uint16_t, piece)  /* rigid piece that a fixed row is part of, its slot + 1; 0: held, or a mover */               \
     X(uint16_t, anchor) /* fixed: 1 + the collider that it hangs on, of those that are told apart; else 0 */           \

@@ -36,6 +36,10 @@ thawPlan makePlan(const Needs& n, const thawWork& work) {
     const bool moved = n.listsStale || n.holdStale || n.collidersMove || n.movers + n.rigid > 0;
     set(thawStage_phase, any && (heated || moved), any ? thawReason_nothingChanged : thawReason_noParticles);
 
+    set(thawStage_control, n.control && n.movers > 0,
+        !any         ? thawReason_noParticles
+        : !n.control ? thawReason_noControl
+                     : thawReason_nothingMoves);
     for (thawStage s : {thawStage_forces, thawStage_viscosity, thawStage_pressure})
         set(s, n.movers > 0, any ? thawReason_nothingMoves : thawReason_noParticles);
     set(thawStage_collision, n.movers + n.rigid > 0, any ? thawReason_nothingMoves : thawReason_noParticles);

@@ -22,6 +22,7 @@ struct Needs {
     bool awayFromAmbient = true;            // something is warmer or colder than ambient
     bool burns = false;                     // something is hot enough to turn to vapour
     bool heatDue = true;                    // by heatInterval
+    bool control = false;                   // some path is on
     bool levels = false;                    // some solid could be coarser or finer than it is
     bool levelsChanged = false;             // the last look at them changed some, or left some for later
     int finestLevel = 0, coarsestLevel = 3; // of the last plan

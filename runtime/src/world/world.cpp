@@ -56,7 +56,7 @@ World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
       motion_(allocator), rigid_(allocator), rigidLiquid_(allocator), heat_(allocator), hold_(allocator),
       anchors_(allocator), bonds_(allocator), surface_(allocator), reference_(allocator), levels_(allocator),
-      volume_(allocator), invDensity_(allocator), featureSizes_(allocator), blockTotals_(allocator),
+      paths_(allocator), volume_(allocator), invDensity_(allocator), featureSizes_(allocator), blockTotals_(allocator),
       expanded_(allocator) {
     particles.allocate(d.maxParticles);
     const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
@@ -152,6 +152,11 @@ uint32_t World::step(float dt, const thawBudget& budget) {
         levels_.choose(levelFrame(work, dt), on(thawStage_radiation) ? heat_.power() : nullptr, bodiesNew);
     }
 
+    const bool guided = on(thawStage_control);
+    if (guided) {
+        auto t = timed(thawStage_control);
+        paths_.track(controlFrame(dt));
+    }
     MotionStats motionStats{};
     if (on(thawStage_collision) || rigid_.moving() || (rigid_.any() && collidersMove())) {
         const float h = dt / static_cast<float>(subSteps);
@@ -162,7 +167,12 @@ uint32_t World::step(float dt, const thawBudget& budget) {
             }
             if (toldApart_) carryHeld(h, s, subSteps);
             expectRest(subSteps - 1 - s);
-            const MotionFrame frame = motionFrame(h, subSteps, work);
+            const Vec4* guide = nullptr;
+            if (guided) {
+                auto t = timed(thawStage_control);
+                guide = paths_.guide(controlFrame(h));
+            }
+            const MotionFrame frame = motionFrame(h, subSteps, work, guide);
             {
                 auto t = timed(thawStage_forces);
                 motion_.begin(frame);
@@ -188,6 +198,8 @@ uint32_t World::step(float dt, const thawBudget& budget) {
             const MotionStats& m = motion_.stats();
             motionStats.viscosityIterations += m.viscosityIterations;
             motionStats.pressureIterations += m.pressureIterations;
+            for (int a = 0; a < 3; ++a) controlImpulse_[a] += m.guideImpulse[a];
+            controlEnergy_ += m.guideEnergy;
             motionStats.iterationsClipped |= m.iterationsClipped, motionStats.velocityClamped |= m.velocityClamped;
             motionStats.maxSpeed = std::max(motionStats.maxSpeed, m.maxSpeed);
             motionStats.maxCompression = m.maxCompression, motionStats.meanCompression = m.meanCompression;
@@ -278,6 +290,7 @@ Needs World::needs() const {
         n.areaSources += strength != 0 && hasExtent(s.type);
     }
     n.timeScaleZero = def.thermalTimeScale == 0;
+    n.control = paths_.any();
     n.levels = anyCoarse_ || mayBeCoarse();
     n.levelsChanged = levelsChanged_, n.full = full_;
     n.finestLevel = plan.work.finestLevel, n.coarsestLevel = plan.work.coarsestLevel;
@@ -474,7 +487,7 @@ void World::fillMassArrays() {
         volume_[static_cast<size_t>(i)] = invDensity_[static_cast<size_t>(i)] = 0;
 }
 
-MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work) {
+MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work, const Vec4* guide) {
     return {particles,
             neighbors_,
             volume_.data(),
@@ -494,6 +507,7 @@ MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work) {
             rigid_.any() ? &rigid_ : nullptr,
             rigid_.any() ? &rigidLiquid_ : nullptr,
             reference_.point.empty() ? nullptr : &reference_,
+            guide,
             &safePoints_,
             Governor::kLeastViscosity,
             Governor::kLeastPressure};
@@ -517,6 +531,13 @@ bool World::anySoft() const {
 }
 
 HeatFrame World::heatFrame(double dt, const thawWork& work) {
+    spots_.clear(); // setPath made room
+    for (const Path& p : paths_.paths)
+        if (p.alive && p.enabled && p.startAbsorptivity >= 0) {
+            const Vec3 start = p.line.points().front();
+            spots_.push_back(
+                {p.collider ? colliders[p.collider - 1].transform.apply(start) : start, p.radius, p.startAbsorptivity});
+        }
     return {particles,
             neighbors_,
             volume_.data(),
@@ -538,7 +559,9 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
             &def.rays,
             std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.def.undercooling > 0; }),
             static_cast<int>(bodies.size()),
-            anyCoarse_ ? &reference_ : nullptr};
+            anyCoarse_ ? &reference_ : nullptr,
+            spots_.data(),
+            static_cast<int>(spots_.size())};
 }
 
 HoldFrame World::holdFrame(float dt, bool relabel) {
@@ -864,6 +887,8 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
 
 void World::removeCollider(uint32_t index) {
     colliders[index] = Collider{};
+    for (size_t k = 0; k < paths_.paths.size(); ++k) // a path on it has no place any more
+        if (paths_.paths[k].alive && paths_.paths[k].collider == index + 1) removePath(static_cast<uint32_t>(k));
     // What hung on it hangs on nothing now, and on nobody who comes to its place.
     for (int i = 0; i < particles.count; ++i)
         if (particles.anchor[static_cast<size_t>(i)] == index + 1) particles.anchor[static_cast<size_t>(i)] = 0;
@@ -960,7 +985,7 @@ uint64_t World::stateHash() const {
     bytes(reference_.point.data(), reference_.point.size() * sizeof(Vec4));
     bytes(reference_.slope.data(), reference_.slope.size() * sizeof(Vec4));
     if (!reference_.home.empty()) bytes(reference_.home.data(), reference_.home.size() * sizeof(Vec4));
-    return units_.hash(heat_.hash(rigidLiquid_.hash(rigid_.hash(bonds_.hash(h)))));
+    return paths_.hash(units_.hash(heat_.hash(rigidLiquid_.hash(rigid_.hash(bonds_.hash(h))))));
 }
 
 thawLedger World::ledger() const {
@@ -968,6 +993,8 @@ thawLedger World::ledger() const {
     l.massAdded = massAdded_, l.massRemoved = massRemoved_, l.massNow = massNow_;
     l.massBurnt = massBurnt_, l.energyBurnt = energyBurnt_;
     l.energyAdded = energyAdded_, l.energyRemoved = energyRemoved_, l.energyNow = energyNow_;
+    std::copy(std::begin(controlImpulse_), std::end(controlImpulse_), std::begin(l.controlImpulse));
+    l.controlEnergy = controlEnergy_;
     l.painted = painted_, l.absorbed = absorbed_, l.contact = contact_, l.emitted = emitted_, l.convected = convected_;
     l.massError = massAdded_ > 0 ? std::abs(massNow_ - massAdded_ + massRemoved_ + massBurnt_) / massAdded_ : 0;
     const double expected =
@@ -985,6 +1012,7 @@ thawCounters World::counters() const {
     for (const Slot& b : bodies) c.bodies += b.alive;
     for (const Collider& x : colliders) c.colliders += x.alive;
     for (const HeatSource& s : sources) c.heatSources += s.alive;
+    for (const Slot& s : pathSlots) c.paths += s.alive;
     c.pieces = pieces(nullptr, 0);
     c.neighborsMax = neighbors_.maxNeighbors, c.neighborsMean = neighbors_.meanNeighbors;
     c.meltedFraction = massNow_ > 0 ? static_cast<float>(liquidMass_ / massNow_) : 0;

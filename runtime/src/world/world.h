@@ -4,6 +4,7 @@
 
 #include "base/safe_points.h"
 #include "base/tasks.h"
+#include "control/paths.h"
 #include "geometry/colliders.h"
 #include "geometry/mesh_fill.h"
 #include "heat/heat.h"
@@ -60,6 +61,10 @@ public:
     void removeCollider(uint32_t index);
     void setColliderTarget(uint32_t index, const Transform& target);
     void teleportCollider(uint32_t index, const Transform& to);
+    // Makes one (index1 0) or replaces what is set of one.
+    thawResult setPath(const thawPathDef& def, std::string& message, uint32_t& index1);
+    void removePath(uint32_t index);
+    thawPathState pathState(uint32_t index) const;
     void extractSurface(const thawSurfaceDef& def, thawSurfaceView& out);
     uint64_t stateHash() const;
     thawLedger ledger() const;
@@ -81,6 +86,7 @@ public:
     std::vector<Slot> colliderSlots;
     std::vector<HeatSource> sources;
     std::vector<Slot> sourceSlots;
+    std::vector<Slot> pathSlots;
     Particles particles;
     thawPlan plan{};
     thawProfile profile{};
@@ -101,7 +107,7 @@ private:
     void refreshExposure();
     void boundStartPressure(uint16_t body);
     void fillMassArrays();
-    MotionFrame motionFrame(float dt, int subSteps, const thawWork& work);
+    MotionFrame motionFrame(float dt, int subSteps, const thawWork& work, const Vec4* guide);
     HeatFrame heatFrame(double dt, const thawWork& work);
     HoldFrame holdFrame(float dt, bool relabel);
     void holdAndRelease(float dt);
@@ -116,6 +122,7 @@ private:
     // Of all rows k for which remove(k); adds what they had to mass and energy. Returns how many.
     template <class F> int removeParticles(F&& remove, double& mass, double& energy);
     void burnOff(double heatSeconds);
+    ControlFrame controlFrame(float dt);
     LevelFrame levelFrame(const thawWork& work, float dt);
     void splitUnder(uint32_t body, const thawBrush& brush);
     // Adds the points of a body to the reference, in the order of their groups. Returns where its origin is.
@@ -135,7 +142,9 @@ private:
     Surface surface_;
     Reference reference_;
     Levels levels_;
-    struct PointRange { // of a body in the reference
+    Paths paths_;
+    std::vector<HeatFrame::Spot> spots_; // of this step
+    struct PointRange {                  // of a body in the reference
         uint32_t begin = 0, end = 0;
     };
     std::vector<PointRange> bodyPoints_; // per body
@@ -173,6 +182,7 @@ private:
     // Ledger and counters of the last measurement.
     double massAdded_ = 0, massRemoved_ = 0, energyAdded_ = 0, energyRemoved_ = 0;
     double massBurnt_ = 0, energyBurnt_ = 0;
+    double controlImpulse_[3] = {}, controlEnergy_ = 0;
     double painted_ = 0, absorbed_ = 0, contact_ = 0, emitted_ = 0, convected_ = 0;
     double massNow_ = 0, energyNow_ = 0, liquidMass_ = 0;
     float minTemperature_ = 0, maxTemperature_ = 0;

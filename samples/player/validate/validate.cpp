@@ -29,7 +29,8 @@ std::vector<Suite> suites() {
           softCases(), softContactCases(), softFrictionCases(), rigidCases(), pieceCases()}},
         {"heat",
          "conduction, contact, phase change, radiation and loss",
-         {conductionCases(), stefanCases(), radiationCases(), surfaceCases(), heatLevelCases(), undercoolingCases()}}};
+         {conductionCases(), stefanCases(), radiationCases(), surfaceCases(), heatLevelCases(), undercoolingCases()}},
+        {"control", "where paths take the melt", {pathCases()}}};
 }
 
 struct Options {

@@ -58,5 +58,6 @@ CaseList radiationCases();
 CaseList stefanCases();
 CaseList surfaceCases();
 CaseList undercoolingCases();
+CaseList pathCases();
 
 } // namespace thaw::player

@@ -1,0 +1,336 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "control/paths.h"
+
+#include "base/kernel.h"
+#include "base/math.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace thaw {
+namespace {
+
+constexpr int kRowBlock = 256;
+constexpr uint32_t kTurns = 4;      // what follows nothing is looked at every so many steps
+constexpr float kCore = 0.5f;       // radii: within, nothing pulls a stream together
+constexpr float kLost = 1.25f;      // reaches: farther off it follows no more
+constexpr float kReturn = 0.06f;    // s to come back to the core from nearby
+constexpr float kReturnMost = 2;    // radii a second, or the path's speed: no faster from far
+constexpr float kLookAhead = 0.25f; // radii: the way there is the way to go, which rounds bends
+constexpr float kHint = 15;         // 1/s, drag at strength 1/2
+constexpr float kLock = 1e3f;       // most that a mass weighs more
+constexpr float kShareGain = 8;     // radii of bias for a share that is all wrong
+constexpr float kFrontShare = 0.05f;
+constexpr int kBins = 128;
+
+bool isControl(uint32_t id) { return (id * 2654435761u) >> 29 == 0; }
+
+float wendland(float q) {
+    const float u = q < 1 ? 1 - q : 0;
+    return u * u * u * u * (1 + 4 * q);
+}
+
+// Places of the path's own space in the world, and back.
+struct Space {
+    const Collider* collider; // null: the world's
+    Vec3 into(Vec3 x) const { return collider ? collider->transform.invert(x) : x; }
+    Vec3 out(Vec3 x) const { return collider ? collider->transform.apply(x) : x; }
+    Vec3 turn(Vec3 v) const { return collider ? rotate(collider->transform.rotation, v) : v; }
+    Vec3 velocityAt(Vec3 x) const { return collider ? collider->velocityAt(x) : Vec3{}; }
+};
+Space spaceOf(const Path& path, const Collider* colliders) {
+    return {path.collider ? &colliders[path.collider - 1] : nullptr};
+}
+
+} // namespace
+
+bool Paths::any() const {
+    for (const Path& p : paths)
+        if (p.alive && p.enabled && p.strength > 0) return true;
+    return false;
+}
+
+void Paths::forget(Particles& p, size_t slot) {
+    for (int i = 0; i < p.count; ++i)
+        if (p.follows[static_cast<size_t>(i)] == slot + 1) p.follows[static_cast<size_t>(i)] = 0;
+}
+
+// Of the paths of the highest priority within their radius: the nearest; where several go the same way, which is a fork
+// ahead, the one that the particle is nearer to there, by how much each has got of its share.
+bool Paths::capture(const ControlFrame& f, size_t row, Vec3 x) {
+    constexpr int kMost = 8;
+    struct Candidate {
+        size_t slot;
+        Foot foot;
+        float distance;
+    };
+    Candidate found[kMost];
+    int count = 0, priority = 0;
+    for (size_t s = 0; s < paths.size(); ++s) {
+        const Path& path = paths[s];
+        if (!path.alive || !path.enabled || !(path.strength > 0) || (count > 0 && path.priority < priority)) continue;
+        const Vec3 at = spaceOf(path, f.colliders).into(x);
+        Foot foot;
+        if (!path.line.nearest(at, foot) || foot.along > path.line.length() - kCore * path.radius) continue;
+        if (count > 0 && path.priority > priority) count = 0;
+        priority = path.priority;
+        if (count < kMost) found[count++] = {s, foot, length(at - foot.point)};
+    }
+    if (count == 0) return false;
+    int best = 0;
+    for (int k = 1; k < count; ++k)
+        if (found[k].distance < found[best].distance) best = k;
+    if (count > 1) {
+        const Candidate& nearest = found[best];
+        const Path& stem = paths[nearest.slot];
+        // Those that run along with the nearest one here.
+        int fork[kMost], forks = 0;
+        for (int k = 0; k < count; ++k) {
+            const Path& path = paths[found[k].slot];
+            if (path.collider == stem.collider && dot(found[k].foot.tangent, nearest.foot.tangent) > 0.5f &&
+                length(found[k].foot.point - nearest.foot.point) < stem.radius)
+                fork[forks++] = k;
+        }
+        if (forks > 1) {
+            // Where they have parted by a radius.
+            Vec3 ahead[kMost], middle;
+            for (float look = 2 * stem.radius;; look *= 2) {
+                middle = {};
+                float apart = 0, longest = 0;
+                for (int k = 0; k < forks; ++k) {
+                    const Candidate& c = found[fork[k]];
+                    ahead[k] = paths[c.slot].line.at(c.foot.along + look).point;
+                    middle += (1 / static_cast<float>(forks)) * ahead[k];
+                    longest = std::max(longest, paths[c.slot].line.length() - c.foot.along);
+                    for (int l = 0; l < k; ++l) apart = std::max(apart, length(ahead[k] - ahead[l]));
+                }
+                if (apart > stem.radius || look > longest) break;
+            }
+            const Vec3 at = spaceOf(stem, f.colliders).into(x), side = at - nearest.foot.point;
+            float highest = -INFINITY;
+            for (int k = 0; k < forks; ++k) {
+                const Vec3 way = ahead[k] - middle, t = nearest.foot.tangent;
+                const Vec3 across = normalizeOr(way - dot(way, t) * t, {});
+                const float score = dot(side, across) / stem.radius + paths[found[fork[k]].slot].bias;
+                if (score > highest) highest = score, best = fork[k];
+            }
+        }
+    }
+    Particles& p = f.particles;
+    p.follows[row] = static_cast<uint16_t>(found[best].slot + 1), p.along[row] = found[best].foot.along;
+    distance_[row] = found[best].distance;
+    return true;
+}
+
+void Paths::track(const ControlFrame& f) {
+    Particles& p = f.particles;
+    const size_t movers = static_cast<size_t>(p.moverCount);
+    distance_.resizeRaw(movers);
+    for (Path& path : paths)
+        if (path.alive && path.enabled) path.time += static_cast<double>(f.dt);
+    // Marked in own_.w, counted in the order of rows: 1 captured, 2 spilled, 3 arrived; .x: by which path.
+    own_.resizeRaw(movers);
+    const uint32_t turn = static_cast<uint32_t>(f.step % kTurns);
+    f.tasks.forBlocks(p.moverCount, kRowBlock, [&](int begin, int end, int, int) {
+        for (size_t i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i) {
+            own_[i] = {};
+            const Vec3 x = p.position[i].xyz();
+            const uint16_t slot = p.follows[i];
+            if (slot == 0) {
+                if (p.id[i] % kTurns == turn && !p.bondSlot[i] && capture(f, i, x)) own_[i].w = 1;
+                continue;
+            }
+            const Path& path = paths[slot - 1u];
+            if (!path.enabled || !(path.strength > 0)) {
+                distance_[i] = 0;
+                continue;
+            }
+            // Near where it was: a path that crosses itself is followed on.
+            const Vec3 at = spaceOf(path, f.colliders).into(x);
+            const float s = p.along[i], r = path.radius;
+            const Foot foot = path.line.nearest(at, s - 0.5f * r, s + r);
+            p.along[i] = foot.along;
+            distance_[i] = length(at - foot.point);
+            const float rest = path.line.length() - foot.along;
+            const bool past = rest <= 0 || (rest < kCore * r &&
+                                            dot(at - path.line.at(foot.along + rest).point, foot.tangent) > -0.25f * r);
+            if (distance_[i] > kLost * path.reach || past) {
+                own_[i] = {static_cast<float>(slot), 0, 0, past ? 3.0f : 2.0f};
+                p.follows[i] = 0;
+            }
+        }
+    });
+    for (Path& path : paths) path.mass = path.distance = 0;
+    for (size_t i = 0; i < movers; ++i) {
+        const double m = p.velocity[i].w;
+        if (own_[i].w > 1.5f) {
+            Path& path = paths[static_cast<size_t>(own_[i].x) - 1];
+            if (own_[i].w > 2.5f) {
+                path.arrived += m;
+                if (path.arrival < 0 && path.arrived > static_cast<double>(kFrontShare) * path.captured)
+                    path.arrival = path.time - path.since;
+            } else {
+                path.spilled += m;
+            }
+        }
+        if (!p.follows[i]) continue;
+        Path& path = paths[p.follows[i] - 1u];
+        if (own_[i].w == 1) {
+            path.captured += m;
+            if (path.since < 0) path.since = path.time;
+        }
+        path.mass += m, path.distance += m * static_cast<double>(distance_[i]);
+    }
+    for (Path& path : paths) path.distance = path.mass > 0 ? path.distance / path.mass : 0;
+    steer(f);
+}
+
+// What replaces the feedback of thesis 3.30 to 3.32: speed by the time that is left or by how far the melt lags, and at
+// forks the mass that each has got.
+void Paths::steer(const ControlFrame& f) {
+    const Particles& p = f.particles;
+    double captured = 0, shares = 0;
+    for (const Path& path : paths)
+        if (path.alive && path.enabled) captured += path.captured, shares += static_cast<double>(path.share);
+    for (size_t s = 0; s < paths.size(); ++s) {
+        Path& path = paths[s];
+        if (!path.alive || !path.enabled) continue;
+        double bins[kBins] = {}, along = 0;
+        const float length = path.line.length();
+        const Space space = spaceOf(path, f.colliders);
+        for (size_t i = 0; i < static_cast<size_t>(p.moverCount); ++i) {
+            if (p.follows[i] != s + 1) continue;
+            const double m = p.velocity[i].w;
+            bins[std::min(kBins - 1, static_cast<int>(p.along[i] / length * kBins))] += m;
+            const Foot foot = path.line.at(p.along[i]);
+            const Vec3 v = p.velocity[i].xyz() - space.velocityAt(p.position[i].xyz());
+            along += m * static_cast<double>(dot(v, space.turn(foot.tangent)));
+        }
+        double ahead = path.arrived;
+        int bin = kBins;
+        while (bin > 0 && ahead < static_cast<double>(kFrontShare) * (path.mass + path.arrived)) ahead += bins[--bin];
+        path.front = path.mass + path.arrived > 0 ? length * static_cast<float>(bin) / kBins : 0;
+        if (path.share > 0 && captured > 0 && shares > 0)
+            path.bias =
+                kShareGain * static_cast<float>(static_cast<double>(path.share) / shares - path.captured / captured);
+        if (path.arrivalTime > 0 && path.since >= 0) {
+            const float left = path.arrivalTime - static_cast<float>(path.time - path.since);
+            const float mean = length / path.arrivalTime, need = (length - path.front) / std::max(left, 0.1f);
+            path.asked = path.arrival < 0 && path.front < length ? std::clamp(need, 0.25f * mean, 4 * mean) : mean;
+        } else {
+            path.asked = path.arrivalTime > 0 ? length / path.arrivalTime : path.speed;
+        }
+        // A drag lags by what gravity and walls do in the meantime.
+        const float lag = path.mass > 0 && path.asked > 0 ? path.asked - static_cast<float>(along / path.mass) : 0;
+        path.boost = std::clamp(path.boost + path.strength * 3 * f.dt * lag, -path.asked, path.asked);
+    }
+}
+
+Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
+    const Particles& p = f.particles;
+    const Path& path = paths[p.follows[i] - 1u];
+    if (!path.enabled || !(path.strength > 0)) return {{}, {}, 0};
+    const Space space = spaceOf(path, f.colliders);
+    const Vec3 x = p.position[i].xyz();
+    Vec3 mean = p.velocity[i].xyz(), outward = p.normal[i].xyz();
+    float weight = 1;
+    forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
+        if (j >= static_cast<uint32_t>(p.moverCount)) return false;
+        const float h = 0.5f * (p.position[i].w + p.position[j].w), w = wendland(length(p.position[j].xyz() - x) / h);
+        mean += w * p.velocity[j].xyz(), weight += w, outward += w * p.normal[j].xyz();
+        return true;
+    });
+    mean = (1 / weight) * mean;
+    const Foot foot = path.line.at(p.along[i]);
+    const Vec3 t = space.turn(
+        normalizeOr(foot.tangent + path.line.at(foot.along + kLookAhead * path.radius).tangent, foot.tangent));
+    Vec3 off = x - space.out(foot.point);
+    off -= dot(off, t) * t;
+    const float d = length(off), core = kCore * path.radius;
+    const Vec3 moving = space.velocityAt(x);
+    const float u = path.asked > 0 ? path.asked + path.boost : dot(mean - moving, t);
+    // From far it comes first and flows along then.
+    const float beside = std::clamp((d - path.radius) / std::max(path.reach - path.radius, 1e-6f), 0.0f, 1.0f);
+    Vec3 target = moving + (u * (1 - 0.8f * beside)) * t;
+    if (d > core) {
+        const float back = std::min((d - core) / kReturn, std::max(u, kReturnMost * path.radius));
+        // Along the surface and no slower for that: what hangs on the far side of a candle comes round it.
+        Vec3 way = -off;
+        if (d > path.radius) {
+            const Vec3 n = normalizeOr(outward, {});
+            way -= dot(way, n) * n;
+        }
+        target += back * normalizeOr(way, {});
+    }
+    const float far = std::clamp((d / path.reach - 1) / (kLost - 1), 0.0f, 1.0f), fade = 1 - far * far;
+    const float s = path.strength, drag = s < 1 ? std::min(kLock, kHint * f.dt * s / (1 - s)) : kLock;
+    // A path across a slope: of the weight it carries what its strength is, else the stream hangs below it by 5 mm.
+    const Vec3 g = f.gravity - dot(f.gravity, t) * t;
+    target -= (s * f.dt / drag) * g;
+    return {target, mean, drag * fade};
+}
+
+const Vec4* Paths::guide(const ControlFrame& f) {
+    const Particles& p = f.particles;
+    const size_t movers = static_cast<size_t>(p.moverCount);
+    const size_t padded = static_cast<size_t>(8 * f.neighbors.moverGroups);
+    own_.resizeRaw(movers), mean_.resizeRaw(movers), guide_.resizeRaw(padded);
+    for (size_t i = movers; i < padded; ++i) guide_[i] = {};
+    f.tasks.forBlocks(p.moverCount, kRowBlock, [&](int begin, int end, int, int) {
+        for (size_t i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i) {
+            own_[i] = {0, 0, 0, -1};
+            if (!p.follows[i] || !isControl(p.id[i])) continue;
+            const Aim a = aim(f, i);
+            own_[i] = {a.target.x, a.target.y, a.target.z, a.weight}, mean_[i] = {a.mean.x, a.mean.y, a.mean.z, 0};
+        }
+    });
+    f.tasks.forBlocks(p.moverCount, kRowBlock, [&](int begin, int end, int, int) {
+        for (size_t i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i) {
+            guide_[i] = {};
+            if (!p.follows[i]) continue;
+            Vec3 target, mean;
+            float drag = 0, weight = 0;
+            const auto add = [&](float w, size_t j) {
+                target += w * own_[j].xyz(), mean += w * mean_[j].xyz(), drag += w * own_[j].w, weight += w;
+            };
+            if (own_[i].w >= 0) add(1, i);
+            forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
+                if (j >= static_cast<uint32_t>(p.moverCount)) return false;
+                if (own_[j].w < 0 || p.follows[j] != p.follows[i]) return true;
+                const float h = 0.5f * (p.position[i].w + p.position[j].w);
+                add(wendland(length(p.position[j].xyz() - p.position[i].xyz()) / h), j);
+                return true;
+            });
+            if (weight > 1e-3f) {
+                target = (1 / weight) * target, mean = (1 / weight) * mean, drag /= weight;
+            } else { // alone: a drop, or the edge of a stream
+                const Aim a = aim(f, i);
+                target = a.target, mean = a.mean, drag = a.weight;
+            }
+            target += (1 - paths[p.follows[i] - 1u].strength) * (p.velocity[i].xyz() - mean);
+            guide_[i] = {target.x, target.y, target.z, drag};
+        }
+    });
+    return guide_.data();
+}
+
+uint64_t Paths::hash(uint64_t h) const {
+    for (size_t s = 0; s < paths.size(); ++s) {
+        const Path& p = paths[s];
+        if (!p.alive) continue;
+        const float f[8] = {
+            p.radius + 1e3f * p.reach, p.strength, p.speed, p.arrivalTime, p.share, p.boost, p.asked, p.bias};
+        const double d[6] = {p.captured, p.arrived, p.since, p.arrival, p.time, static_cast<double>(p.line.length())};
+        uint64_t words[10];
+        static_assert(sizeof words == sizeof f + sizeof d);
+        std::memcpy(words, f, sizeof f), std::memcpy(words + 4, d, sizeof d);
+        h = hashCombine(h, s | static_cast<uint64_t>(p.enabled) << 32 | static_cast<uint64_t>(p.collider) << 33);
+        h = hashCombine(h, p.line.hash());
+        for (const uint64_t w : words) h = hashCombine(h, w);
+    }
+    return h;
+}
+
+} // namespace thaw
