@@ -14,13 +14,13 @@ namespace {
 
 constexpr int kRowBlock = 256;
 constexpr uint32_t kTurns = 4;      // what follows nothing is looked at every so many steps
-constexpr float kCore = 0.5f;       // radii: within, nothing pulls a stream together
+constexpr float kCore = 0.35f;      // radii: within, nothing pulls a stream together
 constexpr float kLost = 1.25f;      // reaches: farther off it follows no more
 constexpr float kReturn = 0.06f;    // s to come back to the core from nearby
-constexpr float kReturnMost = 2;    // radii a second, or the path's speed: no faster from far
+constexpr float kReturnMost = 4;    // radii a second, or twice the speed of the path: no faster from far
 constexpr float kLookAhead = 0.25f; // radii: the way there is the way to go, which rounds bends
 constexpr float kHint = 15;         // 1/s, drag at strength 1/2
-constexpr float kLock = 1e3f;       // most that a mass weighs more
+constexpr float kLock = 16;         // most that a mass weighs more: beyond, the capped solve no longer finds it
 constexpr float kShareGain = 8;     // radii of bias for a share that is all wrong
 constexpr float kFrontShare = 0.05f;
 constexpr int kBins = 128;
@@ -73,7 +73,9 @@ bool Paths::capture(const ControlFrame& f, size_t row, Vec3 x) {
         if (!path.alive || !path.enabled || !(path.strength > 0) || (count > 0 && path.priority < priority)) continue;
         const Vec3 at = spaceOf(path, f.colliders).into(x);
         Foot foot;
-        if (!path.line.nearest(at, foot) || foot.along > path.line.length() - kCore * path.radius) continue;
+        if (f.particles.along[row] == -static_cast<float>(s + 1) || !path.line.nearest(at, foot) ||
+            foot.along > path.line.length() - kCore * path.radius)
+            continue;
         if (count > 0 && path.priority > priority) count = 0;
         priority = path.priority;
         if (count < kMost) found[count++] = {s, foot, length(at - foot.point)};
@@ -159,6 +161,7 @@ void Paths::track(const ControlFrame& f) {
             if (distance_[i] > kLost * path.reach || past) {
                 own_[i] = {static_cast<float>(slot), 0, 0, past ? 3.0f : 2.0f};
                 p.follows[i] = 0;
+                if (past) p.along[i] = -static_cast<float>(slot); // and does not follow it again
             }
         }
     });
@@ -248,6 +251,10 @@ Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
         normalizeOr(foot.tangent + path.line.at(foot.along + kLookAhead * path.radius).tangent, foot.tangent));
     Vec3 off = x - space.out(foot.point);
     off -= dot(off, t) * t;
+    // Across the surface a stream is as thick as it is, and digs itself in: that is off by less than a radius.
+    const Vec3 n = normalizeOr(outward, {});
+    const float across = dot(off, n);
+    off -= std::clamp(across, -path.radius, path.radius) * n;
     const float d = length(off), core = kCore * path.radius;
     const Vec3 moving = space.velocityAt(x);
     const float u = path.asked > 0 ? path.asked + path.boost : dot(mean - moving, t);
@@ -255,13 +262,10 @@ Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
     const float beside = std::clamp((d - path.radius) / std::max(path.reach - path.radius, 1e-6f), 0.0f, 1.0f);
     Vec3 target = moving + (u * (1 - 0.8f * beside)) * t;
     if (d > core) {
-        const float back = std::min((d - core) / kReturn, std::max(u, kReturnMost * path.radius));
+        const float back = std::min((d - core) / kReturn, std::max(2 * u, kReturnMost * path.radius));
         // Along the surface and no slower for that: what hangs on the far side of a candle comes round it.
         Vec3 way = -off;
-        if (d > path.radius) {
-            const Vec3 n = normalizeOr(outward, {});
-            way -= dot(way, n) * n;
-        }
+        if (d > path.radius) way -= dot(way, n) * n;
         target += back * normalizeOr(way, {});
     }
     const float far = std::clamp((d / path.reach - 1) / (kLost - 1), 0.0f, 1.0f), fade = 1 - far * far;
