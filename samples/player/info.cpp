@@ -110,6 +110,19 @@ int info(const std::string& file) {
         std::printf("  %s: %s%s\n", scene::oneLine(h.name, 80).c_str(), sourceText(h).c_str(),
                     h.enabled ? "" : ", off");
 
+    if (!scene.paths.empty()) std::printf("paths: %zu\n", scene.paths.size());
+    for (size_t i = 0; i < scene.paths.size(); ++i) {
+        const thawPathDef& d = scene.paths[i].def;
+        thawPathState state;
+        if (thawPath_GetState(world, built.paths[i], &state) != thawResult_ok) continue;
+        std::printf("  %s: %g m long, radius %g m, strength %g, %s%s\n",
+                    scene::oneLine(scene.paths[i].name, 80).c_str(), double(state.length), double(d.radius),
+                    double(d.strength),
+                    d.arrivalTime > 0 ? formatted("arrives after %g s", double(d.arrivalTime)).c_str()
+                                      : formatted("%g m/s", double(d.speed)).c_str(),
+                    d.enabled ? "" : ", off");
+    }
+
     const thawBudget budget = makeBudget(scene, 0.0, "");
     thawPlan plan;
     const thawResult result = thawWorld_PreviewPlan(world, &budget, &plan);

@@ -114,6 +114,14 @@ struct HeatSource {
     float irradiance = 1000.0f;                // W/m^2, directional; range -1e12..1e12
 };
 
+// See thawPathDef.
+struct Path {
+    std::string name;
+    std::vector<thawVec3> points; // m, in the space of the collider if there is one
+    thawPathDef def{};            // but for points and collider
+    int collider = -1;            // index into Scene::colliders
+};
+
 // Seen only: a wick, a spoon. Takes no part in the simulation.
 struct Prop {
     std::string name;
@@ -148,6 +156,7 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<Collider> colliders;
     std::vector<HeatSource> heatSources;
+    std::vector<Path> paths;
     std::vector<Prop> props;
     Camera camera;
     Look look;
@@ -194,6 +203,7 @@ struct SceneWorld {
     std::vector<thawColliderId> colliders;
     std::vector<thawMeshReport> colliderReports; // zero for what is not a mesh
     std::vector<thawHeatSourceId> heatSources;
+    std::vector<thawPathId> paths;
 };
 
 thawHeatSourceDef sourceDef(const HeatSource& source);

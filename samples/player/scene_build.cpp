@@ -152,6 +152,7 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
     def.maxBodies = std::max(1, int(scene.bodies.size()));
     def.maxColliders = std::max(1, int(scene.colliders.size()));
     def.maxHeatSources = std::max(1, int(scene.heatSources.size()));
+    def.maxPaths = std::max(1, int(scene.paths.size()));
     def.gravity = w.gravity;
     def.ambientTemperature = w.ambientTemperature;
     def.convection = w.convection;
@@ -252,6 +253,16 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
         const thawResult result = thawCreateHeatSource(raw, &d, &id);
         if (result != thawResult_ok) refused(scene, placeOf("heatSources", i), result, raw);
         out.heatSources.push_back(id);
+    }
+    for (size_t i = 0; i < scene.paths.size(); ++i) {
+        const Path& path = scene.paths[i];
+        thawPathDef d = path.def;
+        d.points = path.points.data(), d.pointCount = int32_t(path.points.size());
+        if (path.collider >= 0) d.collider = out.colliders[size_t(path.collider)];
+        thawPathId id{};
+        const thawResult result = thawCreatePath(raw, &d, &id);
+        if (result != thawResult_ok) refused(scene, placeOf("paths", i), result, raw);
+        out.paths.push_back(id);
     }
     return out;
 }

@@ -576,6 +576,41 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         r.done();
         scene.heatSources.push_back(std::move(source));
     });
+    root.list("paths", 1024, [&](const json& value, const std::string& place) {
+        Reader r(value, place, file);
+        Path path;
+        readName(r, path.name, "path", scene.paths.size());
+        thawInitPathDef(&path.def);
+        r.need("points");
+        r.list("points", 1'000'000, [&](const json& point, const std::string& at) {
+            if (!point.is_array() || point.size() != 3) r.bad(at, "must be three numbers (m), got " + brief(point));
+            float x[3];
+            for (size_t k = 0; k < 3; ++k)
+                x[k] = float(r.checked(point[k], at + "/" + std::to_string(k), -kFar, kFar, "m"));
+            path.points.push_back({x[0], x[1], x[2]});
+        });
+        if (path.points.size() < 2)
+            r.bad(r.at("points"), "must be two or more, got " + std::to_string(path.points.size()));
+        std::string collider;
+        r.text("collider", collider);
+        for (size_t c = scene.colliders.size(); c-- > 0 && !collider.empty();)
+            if (scene.colliders[c].name == collider) path.collider = int(c);
+        if (!collider.empty() && path.collider < 0)
+            r.bad(r.at("collider"), "names no entry of /colliders, got \"" + oneLine(collider, 40) + "\"");
+        thawPathDef& d = path.def;
+        r.flag("smooth", d.smooth);
+        r.flag("enabled", d.enabled);
+        r.real("radius", d.radius, 1e-4, 10.0, "m");
+        r.real("reach", d.reach, double(d.radius), 10.0, "m");
+        r.real("strength", d.strength, 0.0, 1.0);
+        r.real("speed", d.speed, 0.0, 100.0, "m/s");
+        r.real("arrivalTime", d.arrivalTime, 0.0, 1e4, "s");
+        r.real("share", d.share, 0.0, 1e6);
+        r.integer("priority", d.priority, -1'000'000, 1'000'000);
+        r.real("startAbsorptivity", d.startAbsorptivity, 0.0, 1.0);
+        r.done();
+        scene.paths.push_back(std::move(path));
+    });
     root.list("props", 1000, [&](const json& value, const std::string& place) {
         Reader r(value, place, file);
         Prop prop;

@@ -254,6 +254,29 @@ std::string writeScene(const Scene& scene) {
                  o.add("visual", quoted(kVisuals[size_t(source.visual)]));
                  return o.end();
              }));
+    if (!scene.paths.empty())
+        root.add("paths", list(scene.paths, 2, [&](const Path& path, int indent) {
+                     thawPathDef plain;
+                     thawInitPathDef(&plain);
+                     const thawPathDef& d = path.def;
+                     ObjectText o(indent);
+                     o.add("name", quoted(path.name));
+                     std::string points;
+                     for (const thawVec3& x : path.points) points += (points.empty() ? "" : ", ") + vector(x);
+                     o.add("points", "[" + points + "]");
+                     if (path.collider >= 0) o.add("collider", quoted(scene.colliders[size_t(path.collider)].name));
+                     if (d.smooth != plain.smooth) o.add("smooth", boolean(d.smooth));
+                     if (d.enabled != plain.enabled) o.add("enabled", boolean(d.enabled));
+                     o.add("radius", shortest(d.radius));
+                     if (d.reach != 0.0f) o.add("reach", shortest(d.reach));
+                     o.add("strength", shortest(d.strength));
+                     o.add("speed", shortest(d.speed));
+                     if (d.arrivalTime != 0.0f) o.add("arrivalTime", shortest(d.arrivalTime));
+                     if (d.share != plain.share) o.add("share", shortest(d.share));
+                     if (d.priority != 0) o.add("priority", std::to_string(d.priority));
+                     if (!std::isnan(d.startAbsorptivity)) o.add("startAbsorptivity", shortest(d.startAbsorptivity));
+                     return o.end();
+                 }));
     root.add("props", list(scene.props, 2, [](const Prop& prop, int indent) {
                  ObjectText o(indent);
                  o.add("name", quoted(prop.name));

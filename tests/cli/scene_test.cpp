@@ -96,6 +96,16 @@ Scene fullScene() {
         }
         s.heatSources.push_back(h);
     }
+    Path path;
+    path.name = "p";
+    path.points = {{0.1f, 0.2f, 0.3f}, {-0.4f, 0.5f, 0.6f}, {0.7f, 0.8f, 0.9f}};
+    thawInitPathDef(&path.def);
+    s.paths.push_back(path);
+    thawPathDef& way = path.def;
+    path.collider = 0;
+    way.smooth = way.enabled = false, way.radius = 0.02f, way.reach = 0.07f, way.strength = 0.35f, way.speed = 0.11f;
+    way.arrivalTime = 4.5f, way.share = 0.7f, way.priority = -3, way.startAbsorptivity = 0.95f;
+    s.paths.push_back(path);
     s.camera = {{1, 2, 3}, {0.5f, 0.25f, 0.1f}, 41.5f};
     s.look = {{0.0f, 0.6f, 0.8f}, 1.7f};
     s.defaults = {12.5f, 2.75f, {0.0f, 1.1f, 2.2f}};
@@ -191,6 +201,25 @@ TEST_CASE("every field of a scene survives writing and reading") {
         CHECK(a.heatSources[i].emissivity == b.heatSources[i].emissivity);
         CHECK(a.heatSources[i].irradiance == b.heatSources[i].irradiance);
         CHECK(a.heatSources[i].position.z == b.heatSources[i].position.z);
+    }
+    REQUIRE(b.paths.size() == 2);
+    for (size_t i = 0; i < 2; ++i) {
+        const thawPathDef &x = a.paths[i].def, &y = b.paths[i].def;
+        CHECK(a.paths[i].name == b.paths[i].name);
+        CHECK(a.paths[i].collider == b.paths[i].collider);
+        REQUIRE(b.paths[i].points.size() == 3);
+        CHECK(std::memcmp(a.paths[i].points.data(), b.paths[i].points.data(), 3 * sizeof(thawVec3)) == 0);
+        CHECK(x.smooth == y.smooth);
+        CHECK(x.enabled == y.enabled);
+        CHECK(x.radius == y.radius);
+        CHECK(x.reach == y.reach);
+        CHECK(x.strength == y.strength);
+        CHECK(x.speed == y.speed);
+        CHECK(x.arrivalTime == y.arrivalTime);
+        CHECK(x.share == y.share);
+        CHECK(x.priority == y.priority);
+        CHECK((x.startAbsorptivity == y.startAbsorptivity ||
+               (std::isnan(x.startAbsorptivity) && std::isnan(y.startAbsorptivity))));
     }
     CHECK(std::memcmp(&a.camera, &b.camera, sizeof a.camera) == 0);
     CHECK(a.look.exposure == b.look.exposure);
