@@ -24,6 +24,7 @@ constexpr float kLock = 16;         // most that a mass weighs more: beyond, the
 constexpr float kShareGain = 8;     // radii of bias for a share that is all wrong
 constexpr float kFrontShare = 0.05f;
 constexpr int kBins = 128;
+constexpr int kHops = 5; // from here on it is in the air
 
 bool isControl(uint32_t id) { return (id * 2654435761u) >> 29 == 0; }
 
@@ -165,6 +166,7 @@ void Paths::track(const ControlFrame& f) {
             }
         }
     });
+    countHops(f);
     for (Path& path : paths) path.mass = path.distance = 0;
     for (size_t i = 0; i < movers; ++i) {
         const double m = p.velocity[i].w;
@@ -231,6 +233,31 @@ void Paths::steer(const ControlFrame& f) {
     }
 }
 
+// How many neighbours lie between what follows and what stands, one more in each step where nothing does.
+void Paths::countHops(const ControlFrame& f) {
+    Particles& p = f.particles;
+    hops_.resizeRaw(static_cast<size_t>(p.moverCount));
+    f.tasks.forBlocks(p.moverCount, kRowBlock, [&](int begin, int end, int, int) {
+        for (size_t i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i) {
+            hops_[i] = 0;
+            if (!p.follows[i]) continue;
+            int least = 254;
+            forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
+                if (j >= static_cast<uint32_t>(p.count)) return false;
+                least = j >= static_cast<uint32_t>(p.moverCount) ? -1 : std::min<int>(least, p.hops[j]);
+                return least >= 0;
+            });
+            for (int c = 0; c < f.colliderCount && least >= 0; ++c) {
+                Vec3 normal;
+                if (f.colliders[c].alive && f.colliders[c].distance(p.position[i].xyz(), normal) < p.position[i].w)
+                    least = -1;
+            }
+            hops_[i] = static_cast<uint8_t>(least + 1);
+        }
+    });
+    std::copy(hops_.begin(), hops_.end(), p.hops.begin());
+}
+
 Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
     const Particles& p = f.particles;
     const Path& path = paths[p.follows[i] - 1u];
@@ -251,10 +278,11 @@ Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
         normalizeOr(foot.tangent + path.line.at(foot.along + kLookAhead * path.radius).tangent, foot.tangent));
     Vec3 off = x - space.out(foot.point);
     off -= dot(off, t) * t;
-    // Across the surface a stream is as thick as it is, and digs itself in: that is off by less than a radius.
+    // Across the surface a stream is as thick as it is, up to a radius, and digs itself in as deep as it likes: nothing
+    // is pulled out of the surface to where the path was drawn.
     const Vec3 n = normalizeOr(outward, {});
     const float across = dot(off, n);
-    off -= std::clamp(across, -path.radius, path.radius) * n;
+    off -= std::min(across, path.radius) * n;
     const float d = length(off), core = kCore * path.radius;
     const Vec3 moving = space.velocityAt(x);
     const float u = path.asked > 0 ? path.asked + path.boost : dot(mean - moving, t);
@@ -271,8 +299,14 @@ Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
     const float far = std::clamp((d / path.reach - 1) / (kLost - 1), 0.0f, 1.0f), fade = 1 - far * far;
     const float s = path.strength, drag = s < 1 ? std::min(kLock, kHint * f.dt * s / (1 - s)) : kLock;
     // A path across a slope: of the weight it carries what its strength is, else the stream hangs below it by 5 mm.
-    const Vec3 g = f.gravity - dot(f.gravity, t) * t;
-    target -= (s * f.dt / drag) * g;
+    // In the air it carries none: where the surface sank away beneath a path, drops hung about its old place.
+    if (p.hops[i] < kHops) {
+        const Vec3 g = f.gravity - dot(f.gravity, t) * t;
+        target -= (s * f.dt / drag) * g;
+    } else {
+        const Vec3 down = normalizeOr(f.gravity, {});
+        target += (dot(mean - target, down) + f.dt * length(f.gravity)) * down;
+    }
     return {target, mean, drag * fade};
 }
 

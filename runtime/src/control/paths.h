@@ -17,6 +17,7 @@ struct ControlFrame {
     Particles& particles;
     const Neighbors& neighbors; // of the rows as they are
     const Collider* colliders;
+    int colliderCount;
     Tasks& tasks;
     float dt; // s, of the step, or of the sub-step for guide()
     uint64_t step;
@@ -48,7 +49,8 @@ struct Path {
 // stays (Thuerey, Keiser, Pauly, Ruede 2006).
 class Paths {
 public:
-    explicit Paths(Allocator& allocator) : own_(allocator), mean_(allocator), guide_(allocator), distance_(allocator) {}
+    explicit Paths(Allocator& allocator)
+        : own_(allocator), mean_(allocator), guide_(allocator), hops_(allocator), distance_(allocator) {}
 
     std::vector<Path> paths; // by slot
     bool any() const;        // some are alive and on
@@ -69,10 +71,12 @@ private:
     };
     bool capture(const ControlFrame& f, size_t row, Vec3 x);
     Aim aim(const ControlFrame& f, size_t row) const;
+    void countHops(const ControlFrame& f);
     void steer(const ControlFrame& f);
 
     Array<Vec4> own_, mean_; // of control particles; own_.w < 0: it is none
     Array<Vec4> guide_;
+    Array<uint8_t> hops_;
     Array<float> distance_; // per mover, m from what it follows
 };
 

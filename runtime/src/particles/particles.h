@@ -43,7 +43,8 @@ struct Feature {
     X(uint32_t, id)          /* stable, never reused */                                                                \
     X(uint32_t, bondSlot)    /* where its bonds are (Bonds), 0 none */                                                 \
     X(uint32_t, fine) /* first of its points in Reference + 1; 0: it has none, or not the ones it was filled with */   \
-    X(float, along) /* m on the path that it follows */                                                                \
+    X(float, along)   /* m on the path that it follows */                                                              \
+    X(uint8_t, hops)  /* of what follows a path: from neighbour to neighbour to what it lies on; grows in the air */   \
     X(uint16_t, follows) /* path that guides it, its slot + 1; 0: none */                                              \
     X(uint16_t, body)                                                                                                  \
     X(uint16_t, piece)  /* rigid piece that a fixed row is part of, its slot + 1; 0: held, or a mover */               \

@@ -5,7 +5,10 @@
 
 namespace thaw {
 
-ControlFrame World::controlFrame(float dt) { return {particles, neighbors_, colliders.data(), tasks, dt, steps_, {def.gravity.x, def.gravity.y, def.gravity.z}}; }
+ControlFrame World::controlFrame(float dt) {
+    return {particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()),
+            tasks,     dt,         steps_,           {def.gravity.x, def.gravity.y, def.gravity.z}};
+}
 
 thawResult World::setPath(const thawPathDef& d, std::string& message, uint32_t& index1) {
     size_t slot = 0;
