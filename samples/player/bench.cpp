@@ -67,9 +67,7 @@ int benchScenes(const Options& o) {
                     const int frames = framesOf(seconds);
                     Progress progress(report.name, frames, o.quiet);
                     for (int f = 1; f <= frames; ++f) {
-                        if (timedStep(built.world.get(), budget, report) & thawStep_refused)
-                            throw RunError(std::string("a step was refused: ") +
-                                           thawWorld_GetLastError(built.world.get()));
+                        stepOrThrow(built.world.get(), budget, report);
                         progress.frame(f, report);
                     }
                     report.finish(built.world.get());

@@ -22,11 +22,6 @@ struct Options {
     bool quiet = false;
 };
 
-void stepOrThrow(thawWorld* world, const thawBudget& budget, Report& report) {
-    if (timedStep(world, budget, report) & thawStep_refused)
-        throw RunError(std::string("a step was refused: ") + thawWorld_GetLastError(world));
-}
-
 // Every source ten times as strong; where there is none, ten times the heat time.
 void heatTenfold(const scene::Scene& scene, const scene::SceneWorld& built) {
     thawWorld* world = built.world.get();

@@ -87,8 +87,7 @@ Run runAt(scene::Scene scene, const scene::SceneMeshes& meshes, const Options& o
     const int frames = o.frames > 0 ? o.frames : framesOf(double(scene.defaults.seconds));
     Progress progress(report.name, frames, o.quiet);
     for (int f = 1; f <= frames; ++f) {
-        if (timedStep(world, budget, report) & thawStep_refused)
-            throw RunError(std::string("a step was refused: ") + thawWorld_GetLastError(world));
+        stepOrThrow(world, budget, report);
         run.melted.push_back(double(report.counters().meltedFraction));
         run.particles.push_back(report.counters().particles);
         progress.frame(f, report);

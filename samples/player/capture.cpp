@@ -60,8 +60,7 @@ std::unique_ptr<Pictures> captureScene(const Options& o, const std::string& path
         Progress progress(report.name, frames, o.quiet);
         for (double time : times) {
             for (const int due = int(std::lround(time / kFrameSeconds)); frame < due; ++frame) {
-                if (timedStep(built.world.get(), budget, report) & thawStep_refused)
-                    throw RunError(std::string("a step was refused: ") + thawWorld_GetLastError(built.world.get()));
+                stepOrThrow(built.world.get(), budget, report);
                 progress.frame(frame + 1, report);
             }
             std::string when = formatted("t = %.2f s", frame * kFrameSeconds);

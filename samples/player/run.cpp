@@ -134,6 +134,11 @@ uint32_t timedStep(thawWorld* world, const thawBudget& budget, Report& report) {
     return status;
 }
 
+void stepOrThrow(thawWorld* world, const thawBudget& budget, Report& report) {
+    if (timedStep(world, budget, report) & thawStep_refused)
+        throw RunError(std::string("a step was refused: ") + thawWorld_GetLastError(world));
+}
+
 Progress::Progress(std::string name, int frames, bool quiet)
     : name_(std::move(name)), frames_(frames), quiet_(quiet), terminal_(THAW_ISATTY(2) != 0) {}
 

@@ -35,6 +35,8 @@ void applyLevels(const RunOptions& options, scene::Scene& scene, thawBudget& bud
 int framesOf(double seconds);
 // One timed step; what the caller does afterwards is not counted.
 uint32_t timedStep(thawWorld* world, const thawBudget& budget, Report& report);
+// The same; throws RunError with the library's message when it is refused.
+void stepOrThrow(thawWorld* world, const thawBudget& budget, Report& report);
 
 // Tells on stderr how far a run is: one line that is rewritten on a terminal, else a line for every second of the game.
 class Progress {

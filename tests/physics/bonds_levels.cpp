@@ -65,17 +65,7 @@ struct Bricks {
         d.density = kDensity, d.setFraction = 0.35f, d.releaseFraction = 0.6f, d.youngModulus = kModulus;
         return d;
     }
-    BondFrame frame() {
-        return {scene.particles,
-                scene.neighbors,
-                scene.volume.data(),
-                scene.materials.data(),
-                nullptr,
-                0,
-                scene.tasks,
-                MotionScene::kStep,
-                {}};
-    }
+    BondFrame frame() { return scene.bondFrame(); }
     void move(const Field& deformed) {
         Particles& p = scene.particles;
         for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) p.position[i].setXyz(deformed(p.position[i].xyz()));

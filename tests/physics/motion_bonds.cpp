@@ -32,17 +32,7 @@ struct Block {
         d.youngModulus = kModulus;
         return d;
     }
-    BondFrame frame() {
-        return {scene.particles,
-                scene.neighbors,
-                scene.volume.data(),
-                scene.materials.data(),
-                nullptr,
-                0,
-                scene.tasks,
-                MotionScene::kStep,
-                {}};
-    }
+    BondFrame frame() { return scene.bondFrame(); }
     // x += gamma y
     void shear(float gamma) {
         Particles& p = scene.particles;

@@ -47,6 +47,10 @@ struct MotionScene {
         return d;
     }
 
+    // Without gravity and walls.
+    thaw::BondFrame bondFrame() {
+        return {particles, neighbors, volume.data(), materials.data(), nullptr, 0, tasks, kStep, {}};
+    }
     MotionScene(float dx, const thawMaterialDef& material, int workerCount = 1, int capacity = 8192)
         : tasks(workers(workerCount)), particles(allocator), neighbors(allocator), motion(allocator), volume(allocator),
           invDensity(allocator), spacing(dx) {

@@ -9,6 +9,11 @@ namespace thaw {
 inline constexpr float kSupport = 2.2f;            // support in particle spacings: 32 neighbours, 0.6 % moment bias
 inline constexpr float kWendland = 3.34225380493f; // 21 / (2 pi)
 inline constexpr float kWendlandGradient = 66.8450760986f; // 210 / pi
+// Its shape without the factor: (1-q)^4 (1+4q), 0 from q = 1 on.
+inline float wendlandShape(float q) {
+    const float u = q < 1 ? 1 - q : 0;
+    return u * u * u * u * (1 + 4 * q);
+}
 
 // Sum of V W over the infinite cubic lattice at kSupport: every density is divided by it. Tested against the sum
 // itself.

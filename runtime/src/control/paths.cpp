@@ -28,28 +28,11 @@ constexpr int kHops = 5; // from here on it is in the air
 
 bool isControl(uint32_t id) { return (id * 2654435761u) >> 29 == 0; }
 
-float wendland(float q) {
-    const float u = q < 1 ? 1 - q : 0;
-    return u * u * u * u * (1 + 4 * q);
-}
-
-// Places of the path's own space in the world, and back.
-struct Space {
-    const Collider* collider; // null: the world's
-    Vec3 into(Vec3 x) const { return collider ? collider->transform.invert(x) : x; }
-    Vec3 out(Vec3 x) const { return collider ? collider->transform.apply(x) : x; }
-    Vec3 turn(Vec3 v) const { return collider ? rotate(collider->transform.rotation, v) : v; }
-    Vec3 velocityAt(Vec3 x) const { return collider ? collider->velocityAt(x) : Vec3{}; }
-};
-Space spaceOf(const Path& path, const Collider* colliders) {
-    return {path.collider ? &colliders[path.collider - 1] : nullptr};
-}
-
 } // namespace
 
 bool Paths::any() const {
     for (const Path& p : paths)
-        if (p.alive && p.enabled && p.strength > 0) return true;
+        if (p.on()) return true;
     return false;
 }
 
@@ -58,7 +41,7 @@ void Paths::forget(Particles& p, size_t slot) {
         if (p.follows[static_cast<size_t>(i)] == slot + 1) p.follows[static_cast<size_t>(i)] = 0;
 }
 
-// Of the paths of the highest priority within their radius: the nearest; where several go the same way, which is a fork
+// Of the paths of the highest priority within their reach: the nearest; where several go the same way, which is a fork
 // ahead, the one that the particle is nearer to there, by how much each has got of its share.
 bool Paths::capture(const ControlFrame& f, size_t row, Vec3 x) {
     constexpr int kMost = 8;
@@ -71,8 +54,8 @@ bool Paths::capture(const ControlFrame& f, size_t row, Vec3 x) {
     int count = 0, priority = 0;
     for (size_t s = 0; s < paths.size(); ++s) {
         const Path& path = paths[s];
-        if (!path.alive || !path.enabled || !(path.strength > 0) || (count > 0 && path.priority < priority)) continue;
-        const Vec3 at = spaceOf(path, f.colliders).into(x);
+        if (!path.on() || (count > 0 && path.priority < priority)) continue;
+        const Vec3 at = PathSpace(path, f.colliders).into(x);
         Foot foot;
         if (f.particles.along[row] == -static_cast<float>(s + 1) || !path.line.nearest(at, foot) ||
             foot.along > path.line.length() - kCore * path.radius)
@@ -111,7 +94,7 @@ bool Paths::capture(const ControlFrame& f, size_t row, Vec3 x) {
                 }
                 if (apart > stem.radius || look > longest) break;
             }
-            const Vec3 at = spaceOf(stem, f.colliders).into(x), side = at - nearest.foot.point;
+            const Vec3 at = PathSpace(stem, f.colliders).into(x), side = at - nearest.foot.point;
             float highest = -INFINITY;
             for (int k = 0; k < forks; ++k) {
                 const Vec3 way = ahead[k] - middle, t = nearest.foot.tangent;
@@ -146,12 +129,12 @@ void Paths::track(const ControlFrame& f) {
                 continue;
             }
             const Path& path = paths[slot - 1u];
-            if (!path.enabled || !(path.strength > 0)) {
+            if (!path.on()) {
                 distance_[i] = 0;
                 continue;
             }
             // Near where it was: a path that crosses itself is followed on.
-            const Vec3 at = spaceOf(path, f.colliders).into(x);
+            const Vec3 at = PathSpace(path, f.colliders).into(x);
             const float s = p.along[i], r = path.radius;
             const Foot foot = path.line.nearest(at, s - 0.5f * r, s + r);
             p.along[i] = foot.along;
@@ -204,7 +187,7 @@ void Paths::steer(const ControlFrame& f) {
         if (!path.alive || !path.enabled) continue;
         double bins[kBins] = {}, along = 0;
         const float length = path.line.length();
-        const Space space = spaceOf(path, f.colliders);
+        const PathSpace space(path, f.colliders);
         for (size_t i = 0; i < static_cast<size_t>(p.moverCount); ++i) {
             if (p.follows[i] != s + 1) continue;
             const double m = p.velocity[i].w;
@@ -261,14 +244,15 @@ void Paths::countHops(const ControlFrame& f) {
 Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
     const Particles& p = f.particles;
     const Path& path = paths[p.follows[i] - 1u];
-    if (!path.enabled || !(path.strength > 0)) return {{}, {}, 0};
-    const Space space = spaceOf(path, f.colliders);
+    if (!path.on()) return {{}, {}, 0};
+    const PathSpace space(path, f.colliders);
     const Vec3 x = p.position[i].xyz();
     Vec3 mean = p.velocity[i].xyz(), outward = p.normal[i].xyz();
     float weight = 1;
     forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
         if (j >= static_cast<uint32_t>(p.moverCount)) return false;
-        const float h = 0.5f * (p.position[i].w + p.position[j].w), w = wendland(length(p.position[j].xyz() - x) / h);
+        const float h = 0.5f * (p.position[i].w + p.position[j].w),
+                    w = wendlandShape(length(p.position[j].xyz() - x) / h);
         mean += w * p.velocity[j].xyz(), weight += w, outward += w * p.normal[j].xyz();
         return true;
     });
@@ -338,7 +322,7 @@ const Vec4* Paths::guide(const ControlFrame& f) {
                 if (j >= static_cast<uint32_t>(p.moverCount)) return false;
                 if (own_[j].w < 0 || p.follows[j] != p.follows[i]) return true;
                 const float h = 0.5f * (p.position[i].w + p.position[j].w);
-                add(wendland(length(p.position[j].xyz() - p.position[i].xyz()) / h), j);
+                add(wendlandShape(length(p.position[j].xyz() - p.position[i].xyz()) / h), j);
                 return true;
             });
             if (weight > 1e-3f) {
@@ -358,14 +342,14 @@ uint64_t Paths::hash(uint64_t h) const {
     for (size_t s = 0; s < paths.size(); ++s) {
         const Path& p = paths[s];
         if (!p.alive) continue;
-        const float f[8] = {
-            p.radius + 1e3f * p.reach, p.strength, p.speed, p.arrivalTime, p.share, p.boost, p.asked, p.bias};
-        const double d[6] = {p.captured, p.arrived, p.since, p.arrival, p.time, static_cast<double>(p.line.length())};
+        const float f[10] = {p.radius, p.reach, p.strength, p.speed, p.arrivalTime,
+                             p.share,  p.boost, p.asked,    p.bias,  p.startAbsorptivity};
+        const double d[5] = {p.captured, p.arrived, p.since, p.arrival, p.time};
         uint64_t words[10];
         static_assert(sizeof words == sizeof f + sizeof d);
-        std::memcpy(words, f, sizeof f), std::memcpy(words + 4, d, sizeof d);
+        std::memcpy(words, f, sizeof f), std::memcpy(words + 5, d, sizeof d);
         h = hashCombine(h, s | static_cast<uint64_t>(p.enabled) << 32 | static_cast<uint64_t>(p.collider) << 33);
-        h = hashCombine(h, p.line.hash());
+        h = hashCombine(hashCombine(h, p.line.hash()), static_cast<uint32_t>(p.priority));
         for (const uint64_t w : words) h = hashCombine(h, w);
     }
     return h;

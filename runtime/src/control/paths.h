@@ -40,6 +40,19 @@ struct Path {
     float bias = 0;                                // radii, at forks: for what got less than its share
     double since = -1, arrival = -1;               // s of its own time of the first capture and arrival; < 0: not yet
     double time = 0;                               // s that it has been on
+
+    bool on() const { return alive && enabled && strength > 0; }
+};
+
+// Places and directions of a path's own space in the world, and back.
+struct PathSpace {
+    const Collider* collider; // null: the world's
+    PathSpace(const Path& path, const Collider* colliders)
+        : collider(path.collider ? &colliders[path.collider - 1] : nullptr) {}
+    Vec3 into(Vec3 x) const { return collider ? collider->transform.invert(x) : x; }
+    Vec3 out(Vec3 x) const { return collider ? collider->transform.apply(x) : x; }
+    Vec3 turn(Vec3 v) const { return collider ? rotate(collider->transform.rotation, v) : v; }
+    Vec3 velocityAt(Vec3 x) const { return collider ? collider->velocityAt(x) : Vec3{}; }
 };
 
 // Paths on which the flow is guided (thesis 3.5.1). What comes within reach of one follows it until it is at its end

@@ -177,6 +177,15 @@ LevelResult Levels::apply(const LevelFrame& f) {
     return result;
 }
 
+bool Levels::takeRoom(int more, LevelResult& result) {
+    if (more > room_) {
+        result.refused = true;
+        return false;
+    }
+    room_ -= more, result.split += more;
+    return true;
+}
+
 void Levels::solids(const LevelFrame& f, LevelResult& result) {
     Particles& p = f.particles;
     const auto step = static_cast<uint32_t>(f.step % kFineTurns);
@@ -187,13 +196,7 @@ void Levels::solids(const LevelFrame& f, LevelResult& result) {
         if (p.level[i] == 0 && f.finest == 0 && (p.id[i] ^ step) % kFineTurns != 0) continue;
         const int level = p.level[i], wanted = target(f, i);
         if (level > wanted) {
-            const int more = (1 << (level - wanted)) - 1;
-            if (more > room_) {
-                result.refused = true;
-                continue;
-            }
-            room_ -= more, result.split += more;
-            splitRow(f, i, wanted);
+            if (takeRoom((1 << (level - wanted)) - 1, result)) splitRow(f, i, wanted);
         } else if (result.merged < kMostMerges && mergeSolid(f, i)) {
             ++result.merged;
         }

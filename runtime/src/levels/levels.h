@@ -70,6 +70,8 @@ private:
     static void splitRow(const LevelFrame& f, size_t row, int to);
     void splitPicked(const LevelFrame& f, bool fully);
     static int levelOf(int want);
+    // Whether so many more rows may come in this step; then they are counted.
+    bool takeRoom(int more, LevelResult& result);
     int target(const LevelFrame& f, size_t row, int margin = 0) const;
     int targetOfBonded(const LevelFrame& f, size_t row) const;
     void mergeGroups(const LevelFrame& f);

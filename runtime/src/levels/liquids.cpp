@@ -26,10 +26,7 @@ constexpr float kStiff = 100;
 // A half comes no nearer to a wall, in its own spacings.
 constexpr float kWall = 0.45f;
 
-float wendland(float r, float h) {
-    const float q = r / h, u = q < 1 ? 1 - q : 0;
-    return u * u * u * u * (1 + 4 * q) / (h * h * h);
-}
+float wendland(float r, float h) { return wendlandShape(r / h) / (h * h * h); }
 
 } // namespace
 
@@ -148,12 +145,9 @@ void Levels::liquids(const LevelFrame& f, LevelResult& result) {
         if (p.id[i] % kTurns != turn || p.fixed(r) || gone_[i] || p.bondSlot[i]) continue;
         const int level = p.level[i], wanted = target(f, i);
         if (level > wanted) {
-            if (room_ < 1) {
-                result.refused = true;
-                continue;
-            }
+            if (!takeRoom(1, result)) continue;
             splitLiquid(f, i, still);
-            --room_, ++result.split, --most;
+            --most;
         } else if (level < target(f, i, kMergeMargin) && mergeLiquid(f, i, still)) {
             ++result.merged, --most;
         }

@@ -51,13 +51,7 @@ void Levels::bonded(const LevelFrame& f, LevelResult& result) {
         if (!p.bondSlot[i] || !p.fine[i] || gone_[i]) continue;
         const int level = p.level[i], wanted = targetOfBonded(f, i);
         if (level > wanted) {
-            const int more = (1 << (level - wanted)) - 1;
-            if (more > room_) {
-                result.refused = true;
-                continue;
-            }
-            room_ -= more, result.split += more;
-            picked_.push(static_cast<uint32_t>(i));
+            if (takeRoom((1 << (level - wanted)) - 1, result)) picked_.push(static_cast<uint32_t>(i));
         } else if (level == 0 && wanted == kHighestLevel && (f.finest > 0 || (p.id[i] ^ step) % kTurns == 0) &&
                    result.merged - merged < kMostMerges * ((1 << kHighestLevel) - 1)) {
             result.merged += mergeBonded(f, i);

@@ -44,10 +44,8 @@ thawResult World::setPath(const thawPathDef& d, std::string& message, uint32_t& 
     for (int i = 0; i < particles.count; ++i) {
         const size_t k = static_cast<size_t>(i);
         if (particles.follows[k] != slot + 1) continue;
-        const Vec3 x = particles.position[k].xyz();
-        const Vec3 at = path.collider ? colliders[path.collider - 1].transform.invert(x) : x;
         Foot foot;
-        if (path.line.nearest(at, foot))
+        if (path.line.nearest(PathSpace(path, colliders.data()).into(particles.position[k].xyz()), foot))
             particles.along[k] = foot.along;
         else
             particles.follows[k] = 0;

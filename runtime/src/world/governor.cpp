@@ -121,13 +121,13 @@ void Governor::chooseLevel(const Needs& n, float target, const thawWork& least, 
 
 int Governor::chooseWorkers(int workers) {
     if (leftOut_ > 0) {
-        if (--leftOut_ == 0) fewer_ = 0, stalls_ = 0, calm_ = 0;
+        if (--leftOut_ == 0) stalls_ = 0, calm_ = 0;
     } else if (stalls_ >= kStallsMost && workers > 1) {
-        fewer_ = 1, leftOut_ = leaveOutFor_, leaveOutFor_ = std::min(2 * leaveOutFor_, kLeaveOutMost);
+        leftOut_ = leaveOutFor_, leaveOutFor_ = std::min(2 * leaveOutFor_, kLeaveOutMost);
     } else if (++calm_ % kCalmFrames == 0) {
         leaveOutFor_ = std::max(leaveOutFor_ / 2, kLeaveOutLeast);
     }
-    return std::max(1, workers - fewer_);
+    return leftOut_ > 0 ? std::max(1, workers - 1) : workers;
 }
 
 Governor::Choice Governor::choose(const Needs& needs, float milliseconds, const thawWork& least, const thawWork& most,
@@ -185,33 +185,32 @@ void Governor::Price::learn(float ms, double units) {
 }
 
 void Governor::learnPrices(const Cost& c) {
-    const auto blend = [](Price& price, float ms, double units) { price.learn(ms, units); };
     const auto blendShare = [](float& share, float part, float whole) {
         if (whole > 0 && std::isfinite(part / whole)) share += 0.1f * (std::min(1.0f, part / whole) - share);
     };
     const double n = c.particles, m = static_cast<double>(c.movers) * c.subSteps;
     const float* s = c.stageMs;
     if (s[thawStage_neighbors] > 0) {
-        blend(perParticle_, s[thawStage_neighbors], n * std::max(1, c.subSteps));
+        perParticle_.learn(s[thawStage_neighbors], n * std::max(1, c.subSteps));
         const float after = s[thawStage_levels] + s[thawStage_stats] + 0.5f * s[thawStage_phase],
                     all = s[thawStage_exposure] + s[thawStage_phase] + s[thawStage_levels] + s[thawStage_stats];
         // What looks for pieces that lost their hold takes as long as all else of it together.
         const float relabel = c.relabelled ? std::max(0.0f, all - perExposure_ * static_cast<float>(n)) : 0;
         if (c.relabelled)
-            blend(perRelabel_, relabel, n);
+            perRelabel_.learn(relabel, n);
         else
-            blend(perExposure_, all, n), blendShare(afterShare_, after, all);
+            perExposure_.learn(all, n), blendShare(afterShare_, after, all);
     }
-    if (c.rays > 0) blend(perRay_, s[thawStage_radiation], c.rays + kRayShare * static_cast<double>(c.exposed));
-    if (c.heatRan) blend(perHeat_, s[thawStage_conduction] + s[thawStage_loss], n * std::max(1, c.heatPasses));
+    if (c.rays > 0) perRay_.learn(s[thawStage_radiation], c.rays + kRayShare * static_cast<double>(c.exposed));
+    if (c.heatRan) perHeat_.learn(s[thawStage_conduction] + s[thawStage_loss], n * std::max(1, c.heatPasses));
     if (m > 0) {
-        blend(perMover_, s[thawStage_forces] + s[thawStage_collision], m);
+        perMover_.learn(s[thawStage_forces] + s[thawStage_collision], m);
         blendShare(collisionShare_, s[thawStage_collision], s[thawStage_forces] + s[thawStage_collision]);
         if (c.viscosityIterations > 0)
-            blend(perViscosity_, s[thawStage_viscosity],
-                  static_cast<double>(c.movers) * (c.viscosityIterations + c.subSteps));
+            perViscosity_.learn(s[thawStage_viscosity],
+                                static_cast<double>(c.movers) * (c.viscosityIterations + c.subSteps));
         if (c.pressureIterations > 0)
-            blend(perPressure_, s[thawStage_pressure], static_cast<double>(c.movers) * c.pressureIterations);
+            perPressure_.learn(s[thawStage_pressure], static_cast<double>(c.movers) * c.pressureIterations);
     }
     const bool stalled = c.stalledMs > kStall || (c.predictedMs > 0 && c.stepMs > kSurprise * c.predictedMs);
     stalls_ = std::clamp(stalled ? stalls_ + kStallWeight : stalls_ - 1, 0, kStallsMost);

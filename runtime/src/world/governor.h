@@ -89,10 +89,9 @@ private:
     int tight_ = 0;  // frames on end that need a coarser one
     int roomy_ = 0;  // or would hold a finer one
     // Workers that the system takes away for a slice at a time cost more than they bring.
-    int fewer_ = 0;         // workers left out
     int stalls_ = 0;        // recent ones count for more
     int leaveOutFor_ = 600; // frames, longer every time
-    int leftOut_ = 0;       // frames to go
+    int leftOut_ = 0;       // frames that one is still left out
     int calm_ = 0;          // frames since
 };
 

@@ -534,9 +534,8 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
     spots_.clear(); // setPath made room
     for (const Path& p : paths_.paths)
         if (p.alive && p.enabled && p.startAbsorptivity >= 0) {
-            const Vec3 start = p.line.points().front();
-            spots_.push_back(
-                {p.collider ? colliders[p.collider - 1].transform.apply(start) : start, p.radius, p.startAbsorptivity});
+            const Vec3 start = PathSpace(p, colliders.data()).out(p.line.points().front());
+            spots_.push_back({start, p.radius, p.startAbsorptivity});
         }
     return {particles,
             neighbors_,
