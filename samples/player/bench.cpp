@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
+#include "bench_control.h"
 #include "bench_levels.h"
 #include "bench_registry.h"
 #include "busy.h"
@@ -124,6 +125,7 @@ void addBench(CLI::App& app, int& exitCode) {
     command->callback([=, &exitCode] { exitCode = benchScenes(*o); });
 
     addBenchLevels(*bench, exitCode);
+    addBenchControl(*bench, exitCode);
     addBenchBudget(*bench, exitCode);
     std::vector<BenchEntry> entries = benchEntries();
     std::sort(entries.begin(), entries.end(),

@@ -123,6 +123,21 @@ int info(const std::string& file) {
                     d.enabled ? "" : ", off");
     }
 
+    if (!scene.shapes.empty()) std::printf("shapes: %zu\n", scene.shapes.size());
+    for (size_t i = 0; i < scene.shapes.size(); ++i) {
+        const scene::FillShape& shape = scene.shapes[i];
+        thawShapeState state;
+        if (thawShape_GetState(world, built.shapes[i], &state) != thawResult_ok) continue;
+        const std::string what = shape.contours.empty()
+                                     ? formatted("%g cm^3", double(state.size) * 1e6)
+                                     : formatted("%zu contour%s, %g cm^2", shape.contours.size(),
+                                                 shape.contours.size() == 1 ? "" : "s", double(state.size) * 1e4);
+        std::printf("  %s: %s, strength %g%s%s\n", scene::oneLine(shape.name, 80).c_str(), what.c_str(),
+                    double(shape.def.strength),
+                    shape.def.sets ? formatted(", sets when %g full", double(shape.def.setFill)).c_str() : "",
+                    shape.def.enabled ? "" : ", off");
+    }
+
     const thawBudget budget = makeBudget(scene, 0.0, "");
     thawPlan plan;
     const thawResult result = thawWorld_PreviewPlan(world, &budget, &plan);

@@ -10,7 +10,7 @@ void addMakeMesh(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("make-mesh", "Write a mesh of the sample scenes");
     auto kind = std::make_shared<std::string>();
     auto out = std::make_shared<std::string>();
-    command->add_option("kind", *kind, "candle or saucer")->required();
+    command->add_option("kind", *kind, "candle, saucer or star")->required();
     command->add_option("--out", *out, "OBJ file to write")->required();
     command->callback([=, &exitCode] {
         scene::TriMesh mesh;
@@ -18,8 +18,11 @@ void addMakeMesh(CLI::App& app, int& exitCode) {
             mesh = scene::makeCandle();
         else if (*kind == "saucer")
             mesh = scene::makeSaucer();
+        else if (*kind == "star")
+            mesh = scene::makeStar();
         else
-            throw scene::InputError("make-mesh: must be candle or saucer, got '" + scene::oneLine(*kind, 40) + "'");
+            throw scene::InputError("make-mesh: must be candle, saucer or star, got '" + scene::oneLine(*kind, 40) +
+                                    "'");
         try {
             scene::writeObj(*out, mesh, "made by: thaw make-mesh " + *kind);
         } catch (const std::runtime_error& e) {

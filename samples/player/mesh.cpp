@@ -219,6 +219,36 @@ TriMesh makeCandle() {
     return mesh;
 }
 
+TriMesh makeStar() {
+    constexpr int kRound = 40, kRings = 25;
+    constexpr double kTip = 0.036, kNotch = 0.016, kHalf = 0.014;
+    const double foot = kTip * std::cos(kPi / 5);
+    TriMesh mesh;
+    const auto put = [&](double x, double y, double z) {
+        for (const double v : {x, y + foot, z}) mesh.vertices.push_back(float(v));
+    };
+    put(0, 0, kHalf);
+    for (int r = 1; r <= kRings; ++r)
+        for (int k = 0; k < kRound; ++k) {
+            const double theta = kPi * r / (kRings + 1), turn = 2 * kPi * k / kRound;
+            const double arm = 2 * std::abs(std::remainder(5 * turn / (2 * kPi), 1)); // 0 at a tip, 1 in a notch
+            const double radius = (kTip + (kNotch - kTip) * arm) * std::sin(theta);
+            put(radius * std::sin(turn), radius * std::cos(turn), kHalf * std::cos(theta));
+        }
+    put(0, 0, -kHalf);
+    const uint32_t last = uint32_t(mesh.vertices.size() / 3 - 1);
+    const auto at = [](int ring, int k) { return uint32_t(1 + ring * kRound + k % kRound); };
+    const auto face = [&](uint32_t a, uint32_t b, uint32_t c) {
+        for (const uint32_t i : {a, b, c}) mesh.indices.push_back(i);
+    };
+    for (int k = 0; k < kRound; ++k) {
+        face(0, at(0, k + 1), at(0, k)), face(last, at(kRings - 1, k), at(kRings - 1, k + 1));
+        for (int r = 0; r + 1 < kRings; ++r)
+            face(at(r, k), at(r, k + 1), at(r + 1, k + 1)), face(at(r, k), at(r + 1, k + 1), at(r + 1, k));
+    }
+    return mesh;
+}
+
 TriMesh makeSaucer() {
     std::vector<ProfilePoint> profile{{0.0, 0.0}, {0.020, 0.0}, {0.030, 0.0}, {0.0335, 0.0012}};
     // Underside rises to the lip, the lip is round, the inside comes back down to a flat well.

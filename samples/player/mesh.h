@@ -54,6 +54,9 @@ TriMesh makeLathe(const std::vector<ProfilePoint>& profile, int segments);
 TriMesh makeCandle();
 // A saucer, 0.055 m in radius and 0.011 m high, its foot on y = 0, its well at y = 0.003.
 TriMesh makeSaucer();
+// A star of five arms, upright on two of them, 0.068 m wide and 0.028 m deep at its middle, its foot on y = 0; 2,000
+// triangles.
+TriMesh makeStar();
 
 // Reads OBJ, PLY, STL, glTF or GLB: all meshes of the file joined, node transforms applied, equal vertices welded.
 // Throws std::runtime_error with one line that does not name the file.

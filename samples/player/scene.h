@@ -122,6 +122,16 @@ struct Path {
     int collider = -1;            // index into Scene::colliders
 };
 
+// See thawShapeDef.
+struct FillShape {
+    std::string name;
+    std::vector<std::vector<thawVec3>> contours; // m, in the space of the collider if there is one; none: a mesh
+    Shape shape;                                 // without contours; not a plane
+    Placement placement;                         // of that
+    thawShapeDef def{};                          // but for points, contours, mesh, its placement and collider
+    int collider = -1;                           // index into Scene::colliders
+};
+
 // Seen only: a wick, a spoon. Takes no part in the simulation.
 struct Prop {
     std::string name;
@@ -157,6 +167,7 @@ struct Scene {
     std::vector<Collider> colliders;
     std::vector<HeatSource> heatSources;
     std::vector<Path> paths;
+    std::vector<FillShape> shapes;
     std::vector<Prop> props;
     Camera camera;
     Look look;
@@ -180,8 +191,8 @@ std::string shortest(float value);
 
 // Triangles of everything that has some; reads mesh files. Indices match the scene's vectors.
 struct SceneMeshes {
-    std::vector<TriMesh> bodies, colliders, props; // empty for planes
-    std::vector<std::vector<TriMesh>> parts;       // of each body, in its space; empty for a depth
+    std::vector<TriMesh> bodies, colliders, shapes, props; // empty for planes and contours
+    std::vector<std::vector<TriMesh>> parts;               // of each body, in its space; empty for a depth
 };
 // Throws InputError that names the place in the scene.
 SceneMeshes loadMeshes(const Scene& scene);
@@ -204,6 +215,7 @@ struct SceneWorld {
     std::vector<thawMeshReport> colliderReports; // zero for what is not a mesh
     std::vector<thawHeatSourceId> heatSources;
     std::vector<thawPathId> paths;
+    std::vector<thawShapeId> shapes;
 };
 
 thawHeatSourceDef sourceDef(const HeatSource& source);

@@ -117,6 +117,8 @@ SceneMeshes loadMeshes(const Scene& scene) {
     }
     for (size_t i = 0; i < scene.colliders.size(); ++i)
         out.colliders.push_back(load("colliders", i, scene.colliders[i].shape));
+    for (size_t i = 0; i < scene.shapes.size(); ++i)
+        out.shapes.push_back(scene.shapes[i].contours.empty() ? load("shapes", i, scene.shapes[i].shape) : TriMesh{});
     for (size_t i = 0; i < scene.props.size(); ++i) out.props.push_back(load("props", i, scene.props[i].shape));
     return out;
 }
@@ -153,6 +155,7 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
     def.maxColliders = std::max(1, int(scene.colliders.size()));
     def.maxHeatSources = std::max(1, int(scene.heatSources.size()));
     def.maxPaths = std::max(1, int(scene.paths.size()));
+    def.maxShapes = std::max(1, int(scene.shapes.size()));
     def.gravity = w.gravity;
     def.ambientTemperature = w.ambientTemperature;
     def.convection = w.convection;
@@ -263,6 +266,27 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
         const thawResult result = thawCreatePath(raw, &d, &id);
         if (result != thawResult_ok) refused(scene, placeOf("paths", i), result, raw);
         out.paths.push_back(id);
+    }
+    for (size_t i = 0; i < scene.shapes.size(); ++i) {
+        const FillShape& shape = scene.shapes[i];
+        thawShapeDef d = shape.def;
+        std::vector<thawVec3> points;
+        std::vector<int32_t> sizes;
+        for (const std::vector<thawVec3>& contour : shape.contours) {
+            points.insert(points.end(), contour.begin(), contour.end());
+            sizes.push_back(int32_t(contour.size()));
+        }
+        d.points = points.data(), d.contourSizes = sizes.data(), d.contourCount = int32_t(sizes.size());
+        if (sizes.empty()) {
+            d.mesh = meshes.shapes[i].view();
+            d.position = shape.placement.position, d.rotation = shape.placement.rotation;
+            d.scale = shape.placement.scale;
+        }
+        if (shape.collider >= 0) d.collider = out.colliders[size_t(shape.collider)];
+        thawShapeId id{};
+        const thawResult result = thawCreateShape(raw, &d, &id);
+        if (result != thawResult_ok) refused(scene, placeOf("shapes", i), result, raw);
+        out.shapes.push_back(id);
     }
     return out;
 }

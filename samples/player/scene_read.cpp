@@ -298,6 +298,23 @@ void readPlacement(Reader& r, Placement& out) {
     r.real("scale", out.scale, 1e-6, 1e6);
 }
 
+thawVec3 readPoint(Reader& r, const json& value, const std::string& at) {
+    if (!value.is_array() || value.size() != 3) r.bad(at, "must be three numbers (m), got " + brief(value));
+    float x[3];
+    for (size_t k = 0; k < 3; ++k) x[k] = float(r.checked(value[k], at + "/" + std::to_string(k), -kFar, kFar, "m"));
+    return {x[0], x[1], x[2]};
+}
+
+// Index of the collider that is named, -1 when none is.
+int readCollider(Reader& r, const Scene& scene) {
+    std::string name;
+    r.text("collider", name);
+    if (name.empty()) return -1;
+    for (size_t c = 0; c < scene.colliders.size(); ++c)
+        if (scene.colliders[c].name == name) return int(c);
+    r.bad(r.at("collider"), "names no entry of /colliders, got \"" + oneLine(name, 40) + "\"");
+}
+
 void readShape(Reader& r, Shape& out, bool planeAllowed) {
     const json* shape = r.find("shape");
     const json* mesh = r.find("mesh");
@@ -582,21 +599,11 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         readName(r, path.name, "path", scene.paths.size());
         thawInitPathDef(&path.def);
         r.need("points");
-        r.list("points", 1'000'000, [&](const json& point, const std::string& at) {
-            if (!point.is_array() || point.size() != 3) r.bad(at, "must be three numbers (m), got " + brief(point));
-            float x[3];
-            for (size_t k = 0; k < 3; ++k)
-                x[k] = float(r.checked(point[k], at + "/" + std::to_string(k), -kFar, kFar, "m"));
-            path.points.push_back({x[0], x[1], x[2]});
-        });
+        r.list("points", 1'000'000,
+               [&](const json& point, const std::string& at) { path.points.push_back(readPoint(r, point, at)); });
         if (path.points.size() < 2)
             r.bad(r.at("points"), "must be two or more, got " + std::to_string(path.points.size()));
-        std::string collider;
-        r.text("collider", collider);
-        for (size_t c = scene.colliders.size(); c-- > 0 && !collider.empty();)
-            if (scene.colliders[c].name == collider) path.collider = int(c);
-        if (!collider.empty() && path.collider < 0)
-            r.bad(r.at("collider"), "names no entry of /colliders, got \"" + oneLine(collider, 40) + "\"");
+        path.collider = readCollider(r, scene);
         thawPathDef& d = path.def;
         r.flag("smooth", d.smooth);
         r.flag("enabled", d.enabled);
@@ -607,9 +614,47 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         r.real("arrivalTime", d.arrivalTime, 0.0, 1e4, "s");
         r.real("share", d.share, 0.0, 1e6);
         r.integer("priority", d.priority, -1'000'000, 1'000'000);
+        r.real("beadSpacing", d.beadSpacing, 2 * double(d.radius), 10.0, "m");
         r.real("startAbsorptivity", d.startAbsorptivity, 0.0, 1.0);
         r.done();
         scene.paths.push_back(std::move(path));
+    });
+    root.list("shapes", 1024, [&](const json& value, const std::string& place) {
+        Reader r(value, place, file);
+        FillShape shape;
+        readName(r, shape.name, "shape", scene.shapes.size());
+        thawInitShapeDef(&shape.def);
+        thawShapeDef& d = shape.def;
+        if (r.find("contours")) {
+            if (r.find("shape") || r.find("mesh")) r.bad(r.at("contours"), "give either contours, shape or mesh");
+            r.list("contours", 10'000, [&](const json& contour, const std::string& at) {
+                if (!contour.is_array() || contour.size() < 3)
+                    r.bad(at, "must be three points or more, got " + brief(contour));
+                std::vector<thawVec3>& points = shape.contours.emplace_back();
+                for (size_t k = 0; k < contour.size(); ++k)
+                    points.push_back(readPoint(r, contour[k], at + "/" + std::to_string(k)));
+            });
+            if (shape.contours.empty()) r.bad(r.at("contours"), "must be one or more, got none");
+            r.vector("normal", d.normal, -kFar, kFar);
+            r.real("depth", d.depth, 1e-4, 10.0, "m");
+            r.real("thickness", d.thickness, 0.0, 10.0, "m");
+        } else {
+            if (!r.find("shape") && !r.find("mesh"))
+                r.bad(r.at("contours"), "is missing: give 'contours', 'shape' or 'mesh'");
+            readShape(r, shape.shape, false);
+            readPlacement(r, shape.placement);
+        }
+        shape.collider = readCollider(r, scene);
+        r.flag("enabled", d.enabled);
+        r.real("reach", d.reach, 1e-4, 10.0, "m");
+        r.real("strength", d.strength, 0.0, 1.0);
+        r.real("speed", d.speed, 1e-4, 100.0, "m/s");
+        r.flag("sets", d.sets);
+        r.real("setFill", d.setFill, 0.0, 1.0);
+        r.real("setTime", d.setTime, 0.0, 1e4, "s");
+        r.integer("priority", d.priority, -1'000'000, 1'000'000);
+        r.done();
+        scene.shapes.push_back(std::move(shape));
     });
     root.list("props", 1000, [&](const json& value, const std::string& place) {
         Reader r(value, place, file);

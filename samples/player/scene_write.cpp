@@ -274,7 +274,41 @@ std::string writeScene(const Scene& scene) {
                      if (d.arrivalTime != 0.0f) o.add("arrivalTime", shortest(d.arrivalTime));
                      if (d.share != plain.share) o.add("share", shortest(d.share));
                      if (d.priority != 0) o.add("priority", std::to_string(d.priority));
+                     if (d.beadSpacing != 0.0f) o.add("beadSpacing", shortest(d.beadSpacing));
                      if (!std::isnan(d.startAbsorptivity)) o.add("startAbsorptivity", shortest(d.startAbsorptivity));
+                     return o.end();
+                 }));
+    if (!scene.shapes.empty())
+        root.add("shapes", list(scene.shapes, 2, [&](const FillShape& shape, int indent) {
+                     thawShapeDef plain;
+                     thawInitShapeDef(&plain);
+                     const thawShapeDef& d = shape.def;
+                     ObjectText o(indent);
+                     o.add("name", quoted(shape.name));
+                     if (shape.contours.empty()) {
+                         addShape(o, shape.shape);
+                         addPlacement(o, shape.placement);
+                     } else {
+                         std::string contours;
+                         for (const std::vector<thawVec3>& contour : shape.contours) {
+                             std::string points;
+                             for (const thawVec3& x : contour) points += (points.empty() ? "" : ", ") + vector(x);
+                             contours += (contours.empty() ? "[" : ", [") + points + "]";
+                         }
+                         o.add("contours", "[" + contours + "]");
+                         if (d.normal.x != 0 || d.normal.y != 0 || d.normal.z != 0) o.add("normal", vector(d.normal));
+                         if (d.depth != 0.0f) o.add("depth", shortest(d.depth));
+                         if (d.thickness != 0.0f) o.add("thickness", shortest(d.thickness));
+                     }
+                     if (shape.collider >= 0) o.add("collider", quoted(scene.colliders[size_t(shape.collider)].name));
+                     if (d.enabled != plain.enabled) o.add("enabled", boolean(d.enabled));
+                     if (d.reach != 0.0f) o.add("reach", shortest(d.reach));
+                     o.add("strength", shortest(d.strength));
+                     o.add("speed", shortest(d.speed));
+                     if (d.sets != plain.sets) o.add("sets", boolean(d.sets));
+                     o.add("setFill", shortest(d.setFill));
+                     o.add("setTime", shortest(d.setTime));
+                     if (d.priority != 0) o.add("priority", std::to_string(d.priority));
                      return o.end();
                  }));
     root.add("props", list(scene.props, 2, [](const Prop& prop, int indent) {

@@ -168,6 +168,7 @@ TEST_CASE("control: what cannot be a path is refused with a reason, and what is 
     d = pathDef(line), d.strength = 1.5f, refused(d, "strength");
     d = pathDef(line), d.speed = inf, refused(d, "speed");
     d = pathDef(line), d.arrivalTime = nan, refused(d, "arrivalTime");
+    d = pathDef(line), d.beadSpacing = 0.01f, refused(d, "beadSpacing");
     d = pathDef(line), d.startAbsorptivity = 2, refused(d, "startAbsorptivity");
     d = pathDef(line), d.collider = {7, 7, 7}, refused(d, "collider");
     thawPathDef raw{};

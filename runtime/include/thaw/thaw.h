@@ -102,6 +102,11 @@ typedef struct thawPathId {
     uint16_t world, generation;
 } thawPathId;
 
+typedef struct thawShapeId {
+    uint32_t index1;
+    uint16_t world, generation;
+} thawShapeId;
+
 typedef struct thawVec3 {
     float x, y, z;
 } thawVec3;
@@ -168,6 +173,7 @@ typedef struct thawWorldDef {
     int32_t maxColliders;     /* range 1..65535, default 64 */
     int32_t maxHeatSources;   /* range 1..1024, default 16 */
     int32_t maxPaths;         /* range 1..1024, default 64 */
+    int32_t maxShapes;        /* range 1..1024, default 64 */
     thawVec3 gravity;         /* m/s^2, each |.| <= 1000, default (0, -9.81, 0) */
     float ambientTemperature; /* K, range 0..1e5, default 293.15; air and far surroundings */
     float convection;         /* W/(m^2 K), heat transfer to ambient air; range 0..1e4, default 10 */
@@ -457,6 +463,8 @@ typedef struct thawPathDef {
                           0..1e4, default 0: speed counts */
     float share;       /* of what flows where paths part, in relation to theirs; range 0..1e6, default 1 */
     int32_t priority;  /* where paths cross, melt that follows none yet takes the highest; default 0 */
+    float beadSpacing; /* m along it between beads that the stream is drawn together into; range 2 radius..10, default
+                          0: none, it is even */
     float startAbsorptivity; /* 1, of thermal radiation, at the first point, fading over a radius: melting starts there;
                                range 0..1, default NaN: the material's */
 } thawPathDef;
@@ -479,6 +487,62 @@ typedef struct thawPathState {
 } thawPathState;
 THAW_API thawResult thawPath_GetState(const thawWorld* world, thawPathId id, thawPathState* out);
 
+/* A form that melt fills and sets in. All melt that comes within `reach` obeys it: it is led to where it is missing,
+ * round holes and obstacles, and held at the rim; what lies outside is brought back. When the share `setFill` of the
+ * shape is filled, all melt inside is cooled until it sets; the heat is in thawLedger.controlHeat.
+ *
+ * Either flat, closed contours drawn on a surface: the shape is what lies inside an odd number of them, so that a
+ * contour in a contour is a hole; contours that cross themselves or each other follow the same rule, and each is closed
+ * from its last point to its first. Melt fills it as deep as there is melt for. It works along the plane that the
+ * contours fit best and `depth` to both sides of it, and leaves the motion across the plane to gravity: a surface that
+ * turns by more than about 60 degrees takes several shapes.
+ *
+ * Or a closed mesh: melt gathers in it from the bottom up, its weight carried, and what has set is held in the air as
+ * long as the shape is on. What finds no room is let go. */
+typedef struct thawShapeDef {
+    uint32_t structSize, cookie;
+    const thawVec3* points;      /* m, of all contours one after the other, each within 1e5; at most 1000000 in all */
+    const int32_t* contourSizes; /* contourCount of them: points of each, range 3..1000000 */
+    int32_t contourCount;        /* range 1..10000; 0 with a mesh */
+    thawVec3 normal;   /* out of the surface, any length; default 0: across the plane that fits, to its upper side */
+    thawMesh mesh;     /* instead of contours, default none */
+    thawVec3 position; /* m, of the mesh; default 0 */
+    thawQuat rotation; /* of the mesh, default none */
+    float scale;       /* 1, of the mesh; range 1e-6..1e6, default 1 */
+    thawColliderId collider; /* that it moves with, in whose space all of it is, and is destroyed with; default null: it
+                                stands still in the world */
+    bool enabled;            /* default true */
+    float reach;             /* m beyond the rim from where melt is drawn, range 1e-4..10; default 0: half its size */
+    float depth;             /* m off the surface, of contours; range 1e-4..10; default 0: as `reach` */
+    float thickness;         /* m, at which contours are full and take up no more; range 0..10, default 0: at none */
+    float strength;          /* 0: nothing, 0.5: a hint, 1: a lock; range 0..1, default 1 */
+    float speed;             /* m/s, at most, at which melt is led; range 1e-4..100, default 0.1 */
+    bool sets;               /* cools what is in it when it is filled; default true */
+    float setFill;           /* 1, share of it that is covered, or filled, when that begins; range 0..1, default 0.9 */
+    float setTime;           /* s that it takes about; range 0..1e4, default 2 */
+    int32_t priority; /* where shapes overlap, melt that obeys none yet takes the highest. Before a path of the same
+                         priority inside, after it around; default 0 */
+} thawShapeDef;
+THAW_API void thawInitShapeDef(thawShapeDef* def);
+THAW_API thawResult thawCreateShape(thawWorld* world, const thawShapeDef* def, thawShapeId* outId);
+/* Replaces every property; takes effect in the next step. Another form, reach or collider starts to fill anew. */
+THAW_API thawResult thawShape_Set(thawWorld* world, thawShapeId id, const thawShapeDef* def);
+/* What obeyed it flows freely; what has set stays, and falls where nothing else holds it. */
+THAW_API thawResult thawDestroyShape(thawWorld* world, thawShapeId id);
+
+typedef struct thawShapeState {
+    float size;            /* m^2 inside of contours, m^3 inside of a mesh */
+    float mass;            /* kg that obey it, of which: */
+    float inside, spilled; /* kg inside; more than half a spacing outside */
+    float set;             /* kg that have set */
+    float captured, lost;  /* kg, ever: that came to obey it; that went out of its reach, or found no room */
+    float meanDistance;    /* m from it, of what is spilled */
+    float fill;            /* 1, share of it that is covered, or filled */
+    float level;           /* m, of contours: how deep all that obeys it stands, or would */
+    float filledAfter;     /* s from the first capture until setFill was reached; NaN: not yet */
+} thawShapeState;
+THAW_API thawResult thawShape_GetState(const thawWorld* world, thawShapeId id, thawShapeState* out);
+
 /* ---- plan and budget -------------------------------------------------------------------------------------------- */
 
 typedef enum thawStage {
@@ -489,7 +553,7 @@ typedef enum thawStage {
     thawStage_conduction,
     thawStage_loss,    /* emission and convection to ambient */
     thawStage_phase,   /* temperature, liquid fraction, letting go and setting */
-    thawStage_control, /* who follows which path, and how fast */
+    thawStage_control, /* who follows which path or shape, and how fast */
     thawStage_forces,  /* gravity, cohesion, adhesion */
     thawStage_viscosity,
     thawStage_pressure,
@@ -511,7 +575,7 @@ typedef enum thawReason {
     thawReason_timeScaleZero,  /* heat is switched off by thermalTimeScale = 0 */
     thawReason_interval,       /* not due in this step: see heatInterval */
     thawReason_oneLevel,       /* no solid that was filled with coarse particles */
-    thawReason_noControl       /* no path that is on */
+    thawReason_noControl       /* no path or shape that is on */
 } thawReason;
 /* A stage's name and a reason in words; "" when out of range. Static storage. */
 THAW_API const char* thawStageName(thawStage stage);
@@ -653,18 +717,19 @@ typedef struct thawLedger {
     double emitted;                         /* J by thermal radiation, net of what ambient sends back */
     double convected;                       /* J to the air */
     double energyNow;                       /* J, sum of m H */
-    double controlImpulse[3];               /* N s, momentum that paths gave */
-    double controlEnergy;                   /* J, kinetic energy that paths gave, < 0: took */
+    double controlImpulse[3];               /* N s, momentum that paths and shapes gave */
+    double controlEnergy;                   /* J, kinetic energy that they gave, < 0: took */
+    double controlHeat;                     /* J that shapes took until what is in them set */
     double massError;                       /* |massNow - added + removed + burnt| / added */
-    double energyError; /* |energyNow - (added - removed - burnt + painted + absorbed + contact - emitted -
-                           convected)| / largest sum moved */
+    double energyError; /* |energyNow - (added - removed - burnt + painted + absorbed + contact - emitted - convected
+                           - controlHeat)| / largest sum moved */
 } thawLedger;
 THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);
 
 typedef struct thawCounters {
     int32_t particles, moving, fixed, surface, capacity; /* moving: liquid, and rigid pieces that are awake */
     int32_t pieces;                                      /* rigid ones, awake or asleep */
-    int32_t bodies, colliders, heatSources, materials, paths;
+    int32_t bodies, colliders, heatSources, materials, paths, shapes;
     int32_t subSteps, pressureIterations, viscosityIterations; /* of the last step; iterations summed over sub-steps */
     int32_t rays, neighborsMax;
     int32_t levels[4];      /* particles by level */

@@ -65,6 +65,13 @@ public:
                  static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z),
                  static_cast<double>(q.w));
     }
+    void places(const char* field, const thawVec3* points, int64_t count) {
+        for (int64_t k = 0; ok() && k < count; ++k)
+            if (const thawVec3 x = points[k]; !(std::abs(x.x) <= 1e5 && std::abs(x.y) <= 1e5 && std::abs(x.z) <= 1e5))
+                fail(thawResult_invalidArgument, "%s[%lld]: must be within 1e5 m, got (%g, %g, %g)", field,
+                     static_cast<long long>(k), static_cast<double>(x.x), static_cast<double>(x.y),
+                     static_cast<double>(x.z));
+    }
     template <class Def> void initialised(const char* name, const Def* def) {
         if (!def)
             fail(thawResult_invalidArgument, "%s: is NULL", name);
@@ -128,6 +135,7 @@ void checkWorldDef(Check& c, const thawWorldDef* d) {
     c.range("maxColliders", d->maxColliders, 1, 65535);
     c.range("maxHeatSources", d->maxHeatSources, 1, 1024);
     c.range("maxPaths", d->maxPaths, 1, 1024);
+    c.range("maxShapes", d->maxShapes, 1, 1024);
     c.finite("gravity", d->gravity, 1000);
     c.range("ambientTemperature", d->ambientTemperature, 0, 1e5);
     c.range("convection", d->convection, 0, 1e4);
@@ -207,10 +215,7 @@ void checkPath(Check& c, const World& w, const thawPathDef* d) {
     if (!c.ok()) return;
     c.range("pointCount", d->pointCount, 2, 1e6);
     if (c.ok() && !d->points) c.fail(thawResult_invalidArgument, "points: is NULL");
-    for (int32_t k = 0; c.ok() && k < d->pointCount; ++k)
-        if (const thawVec3 x = d->points[k]; !(std::abs(x.x) <= 1e5 && std::abs(x.y) <= 1e5 && std::abs(x.z) <= 1e5))
-            c.fail(thawResult_invalidArgument, "points[%d]: must be within 1e5 m, got (%g, %g, %g)", k,
-                   static_cast<double>(x.x), static_cast<double>(x.y), static_cast<double>(x.z));
+    c.places("points", d->points, d->pointCount);
     if (d->collider.index1 != 0 && !alive(w, d->collider, w.colliderSlots))
         c.fail(thawResult_staleId, "collider: is not alive in this world");
     c.range("radius", d->radius, 1e-4, 10);
@@ -219,7 +224,43 @@ void checkPath(Check& c, const World& w, const thawPathDef* d) {
     c.range("speed", d->speed, 0, 100);
     c.range("arrivalTime", d->arrivalTime, 0, 1e4);
     c.range("share", d->share, 0, 1e6);
+    if (d->beadSpacing != 0) c.range("beadSpacing", d->beadSpacing, 2 * static_cast<double>(d->radius), 10);
     if (!std::isnan(d->startAbsorptivity)) c.range("startAbsorptivity", d->startAbsorptivity, 0, 1);
+}
+
+void checkShape(Check& c, const World& w, const thawShapeDef* d) {
+    c.initialised("shapeDef", d);
+    if (!c.ok()) return;
+    const bool mesh = d->mesh.vertices || d->mesh.indices;
+    c.range("contourCount", d->contourCount, mesh ? 0 : 1, mesh ? 0 : 10000);
+    if (mesh) {
+        c.mesh("mesh", d->mesh);
+    } else if (c.ok()) {
+        if (!d->points) c.fail(thawResult_invalidArgument, "points: is NULL");
+        if (!d->contourSizes) c.fail(thawResult_invalidArgument, "contourSizes: is NULL");
+        int64_t count = 0;
+        for (int32_t k = 0; c.ok() && k < d->contourCount; ++k) {
+            if (!(d->contourSizes[k] >= 3 && d->contourSizes[k] <= 1000000))
+                c.fail(thawResult_invalidArgument, "contourSizes[%d]: must be in 3..1000000, got %d", k,
+                       d->contourSizes[k]);
+            else if ((count += d->contourSizes[k]) > 1000000)
+                c.fail(thawResult_capacity, "points: at most 1000000 in all contours, got more in the first %d", k + 1);
+        }
+        if (c.ok()) c.places("points", d->points, count);
+    }
+    c.finite("normal", d->normal, 1e5);
+    c.finite("position", d->position, 1e5);
+    c.rotation("rotation", d->rotation);
+    c.range("scale", d->scale, 1e-6, 1e6);
+    if (d->collider.index1 != 0 && !alive(w, d->collider, w.colliderSlots))
+        c.fail(thawResult_staleId, "collider: is not alive in this world");
+    if (d->reach != 0) c.range("reach", d->reach, 1e-4, 10);
+    if (d->depth != 0) c.range("depth", d->depth, 1e-4, 10);
+    c.range("thickness", d->thickness, 0, 10);
+    c.range("strength", d->strength, 0, 1);
+    c.range("speed", d->speed, 1e-4, 100);
+    c.range("setFill", d->setFill, 0, 1);
+    c.range("setTime", d->setTime, 0, 1e4);
 }
 
 void checkWork(Check& c, const char* of, const thawWork& w) {
@@ -390,7 +431,7 @@ const char* thawReasonString(thawReason reason) {
     case thawReason_oneLevel:
         return "no solid that could be coarse";
     case thawReason_noControl:
-        return "no path is on";
+        return "no path or shape is on";
     }
     return "";
 }
@@ -401,7 +442,8 @@ void thawInitWorldDef(thawWorldDef* def) {
     def->structSize = sizeof *def, def->cookie = thaw::kDefCookie;
     def->particleSpacing = 0.002f;
     def->maxParticles = 32768;
-    def->maxMaterials = 16, def->maxBodies = 64, def->maxColliders = 64, def->maxHeatSources = 16, def->maxPaths = 64;
+    def->maxMaterials = 16, def->maxBodies = 64, def->maxColliders = 64, def->maxHeatSources = 16, def->maxPaths = 64,
+    def->maxShapes = 64;
     def->gravity = {0, -9.81f, 0};
     def->ambientTemperature = 293.15f;
     def->convection = 10;
@@ -745,6 +787,56 @@ thawResult thawPath_GetState(const thawWorld* world, thawPathId id, thawPathStat
     *out = {};
     if (!alive(world->world, id, world->world.pathSlots)) return thawResult_staleId;
     *out = world->world.pathState(id.index1 - 1);
+    return thawResult_ok;
+}
+
+void thawInitShapeDef(thawShapeDef* def) {
+    if (!def) return;
+    *def = thawShapeDef{};
+    def->structSize = sizeof *def, def->cookie = thaw::kDefCookie;
+    def->rotation = {0, 0, 0, 1}, def->scale = 1;
+    def->enabled = def->sets = true;
+    def->strength = 1, def->speed = 0.1f, def->setFill = 0.9f, def->setTime = 2;
+}
+
+thawResult thawCreateShape(thawWorld* world, const thawShapeDef* def, thawShapeId* outId) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!outId) return c.fail(thawResult_invalidArgument, "outId: is NULL");
+        *outId = {};
+        checkShape(c, w, def);
+        if (!c.ok()) return;
+        std::string message;
+        uint32_t index1 = 0;
+        if (const thawResult r = w.setShape(*def, message, index1); r != thawResult_ok)
+            return c.fail(r, "%s", message.c_str());
+        *outId = {index1, w.tag, w.shapeSlots[index1 - 1].generation};
+    });
+}
+
+thawResult thawShape_Set(thawWorld* world, thawShapeId id, const thawShapeDef* def) {
+    return guarded(world, [&](World& w, Check& c) {
+        checkShape(c, w, def);
+        if (c.ok() && !alive(w, id, w.shapeSlots)) c.fail(thawResult_staleId, "shape: is not alive in this world");
+        if (!c.ok()) return;
+        std::string message;
+        uint32_t index1 = id.index1;
+        if (const thawResult r = w.setShape(*def, message, index1); r != thawResult_ok)
+            c.fail(r, "%s", message.c_str());
+    });
+}
+
+thawResult thawDestroyShape(thawWorld* world, thawShapeId id) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!alive(w, id, w.shapeSlots)) return c.fail(thawResult_staleId, "shape: is not alive in this world");
+        w.removeShape(id.index1 - 1);
+    });
+}
+
+thawResult thawShape_GetState(const thawWorld* world, thawShapeId id, thawShapeState* out) {
+    if (!world || !out) return thawResult_invalidArgument;
+    *out = {};
+    if (!alive(world->world, id, world->world.shapeSlots)) return thawResult_staleId;
+    *out = world->world.shapeState(id.index1 - 1);
     return thawResult_ok;
 }
 

@@ -19,9 +19,9 @@ constexpr float kLost = 1.25f;      // reaches: farther off it follows no more
 constexpr float kReturn = 0.06f;    // s to come back to the core from nearby
 constexpr float kReturnMost = 4;    // radii a second, or twice the speed of the path: no faster from far
 constexpr float kLookAhead = 0.25f; // radii: the way there is the way to go, which rounds bends
-constexpr float kHint = 15;         // 1/s, drag at strength 1/2
-constexpr float kLock = 16;         // most that a mass weighs more: beyond, the capped solve no longer finds it
 constexpr float kShareGain = 8;     // radii of bias for a share that is all wrong
+constexpr float kStart = 3;         // radii of a path that are its start
+constexpr float kBeadTime = 0.12f;  // s in which beads come together
 constexpr float kFrontShare = 0.05f;
 constexpr int kBins = 128;
 constexpr int kHops = 5; // from here on it is in the air
@@ -29,6 +29,19 @@ constexpr int kHops = 5; // from here on it is in the air
 bool isControl(uint32_t id) { return (id * 2654435761u) >> 29 == 0; }
 
 } // namespace
+
+void Path::arrive(double kilograms) {
+    arrived += kilograms;
+    if (arrival < 0 && arrived > static_cast<double>(kFrontShare) * captured) arrival = time - since;
+}
+
+// A smooth odd wave: 0 in the middle and at the ends.
+float Path::toBead(float along) const {
+    if (!(beadSpacing > 0)) return 0;
+    const double waves = (static_cast<double>(along) - phase) / static_cast<double>(beadSpacing);
+    const float x = static_cast<float>(waves - std::round(waves));
+    return -beadSpacing / kBeadTime * x * (1 - 4 * x * x);
+}
 
 bool Paths::any() const {
     for (const Path& p : paths)
@@ -55,7 +68,7 @@ bool Paths::capture(const ControlFrame& f, size_t row, Vec3 x) {
     for (size_t s = 0; s < paths.size(); ++s) {
         const Path& path = paths[s];
         if (!path.on() || (count > 0 && path.priority < priority)) continue;
-        const Vec3 at = PathSpace(path, f.colliders).into(x);
+        const Vec3 at = OwnSpace(path.collider, f.colliders).into(x);
         Foot foot;
         if (f.particles.along[row] == -static_cast<float>(s + 1) || !path.line.nearest(at, foot) ||
             foot.along > path.line.length() - kCore * path.radius)
@@ -94,7 +107,7 @@ bool Paths::capture(const ControlFrame& f, size_t row, Vec3 x) {
                 }
                 if (apart > stem.radius || look > longest) break;
             }
-            const Vec3 at = PathSpace(stem, f.colliders).into(x), side = at - nearest.foot.point;
+            const Vec3 at = OwnSpace(stem.collider, f.colliders).into(x), side = at - nearest.foot.point;
             float highest = -INFINITY;
             for (int k = 0; k < forks; ++k) {
                 const Vec3 way = ahead[k] - middle, t = nearest.foot.tangent;
@@ -123,7 +136,11 @@ void Paths::track(const ControlFrame& f) {
         for (size_t i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i) {
             own_[i] = {};
             const Vec3 x = p.position[i].xyz();
-            const uint16_t slot = p.follows[i];
+            const uint16_t slot = pathOf(p.follows[i]);
+            if (p.follows[i] & kShapeBit) {
+                distance_[i] = 0;
+                continue;
+            }
             if (slot == 0) {
                 if (p.id[i] % kTurns == turn && !p.bondSlot[i] && capture(f, i, x)) own_[i].w = 1;
                 continue;
@@ -134,7 +151,7 @@ void Paths::track(const ControlFrame& f) {
                 continue;
             }
             // Near where it was: a path that crosses itself is followed on.
-            const Vec3 at = PathSpace(path, f.colliders).into(x);
+            const Vec3 at = OwnSpace(path.collider, f.colliders).into(x);
             const float s = p.along[i], r = path.radius;
             const Foot foot = path.line.nearest(at, s - 0.5f * r, s + r);
             p.along[i] = foot.along;
@@ -156,14 +173,12 @@ void Paths::track(const ControlFrame& f) {
         if (own_[i].w > 1.5f) {
             Path& path = paths[static_cast<size_t>(own_[i].x) - 1];
             if (own_[i].w > 2.5f) {
-                path.arrived += m;
-                if (path.arrival < 0 && path.arrived > static_cast<double>(kFrontShare) * path.captured)
-                    path.arrival = path.time - path.since;
+                path.arrive(m);
             } else {
                 path.spilled += m;
             }
         }
-        if (!p.follows[i]) continue;
+        if (!pathOf(p.follows[i])) continue;
         Path& path = paths[p.follows[i] - 1u];
         if (own_[i].w == 1) {
             path.captured += m;
@@ -187,7 +202,7 @@ void Paths::steer(const ControlFrame& f) {
         if (!path.alive || !path.enabled) continue;
         double bins[kBins] = {}, along = 0;
         const float length = path.line.length();
-        const PathSpace space(path, f.colliders);
+        const OwnSpace space(path.collider, f.colliders);
         for (size_t i = 0; i < static_cast<size_t>(p.moverCount); ++i) {
             if (p.follows[i] != s + 1) continue;
             const double m = p.velocity[i].w;
@@ -212,6 +227,7 @@ void Paths::steer(const ControlFrame& f) {
         }
         // A drag lags by what gravity and walls do in the meantime.
         const float lag = path.mass > 0 && path.asked > 0 ? path.asked - static_cast<float>(along / path.mass) : 0;
+        path.phase += static_cast<double>(f.dt * path.asked);
         path.boost = std::clamp(path.boost + path.strength * 3 * f.dt * lag, -path.asked, path.asked);
     }
 }
@@ -223,7 +239,7 @@ void Paths::countHops(const ControlFrame& f) {
     f.tasks.forBlocks(p.moverCount, kRowBlock, [&](int begin, int end, int, int) {
         for (size_t i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i) {
             hops_[i] = 0;
-            if (!p.follows[i]) continue;
+            if (!pathOf(p.follows[i])) continue;
             int least = 254;
             forNeighbors(f.neighbors, static_cast<int>(i), [&](uint32_t j) {
                 if (j >= static_cast<uint32_t>(p.count)) return false;
@@ -244,8 +260,8 @@ void Paths::countHops(const ControlFrame& f) {
 Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
     const Particles& p = f.particles;
     const Path& path = paths[p.follows[i] - 1u];
-    if (!path.on()) return {{}, {}, 0};
-    const PathSpace space(path, f.colliders);
+    if (!path.on()) return {};
+    const OwnSpace space(path.collider, f.colliders);
     const Vec3 x = p.position[i].xyz();
     Vec3 mean = p.velocity[i].xyz(), outward = p.normal[i].xyz();
     float weight = 1;
@@ -267,21 +283,27 @@ Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
     const Vec3 n = normalizeOr(outward, {});
     const float across = dot(off, n);
     off -= std::min(across, path.radius) * n;
+    // What melts at its start sinks: it is not lifted back there, else it leaps from the rim of a candle's cup.
+    if (const Vec3 down = normalizeOr(f.gravity, {}); foot.along < kStart * path.radius)
+        off -= std::max(0.0f, dot(off, down) - kCore * path.radius) * down;
     const float d = length(off), core = kCore * path.radius;
     const Vec3 moving = space.velocityAt(x);
     const float u = path.asked > 0 ? path.asked + path.boost : dot(mean - moving, t);
     // From far it comes first and flows along then.
     const float beside = std::clamp((d - path.radius) / std::max(path.reach - path.radius, 1e-6f), 0.0f, 1.0f);
-    Vec3 target = moving + (u * (1 - 0.8f * beside)) * t;
+    Vec3 target = moving + ((u + path.toBead(foot.along)) * (1 - 0.8f * beside)) * t;
     if (d > core) {
         const float back = std::min((d - core) / kReturn, std::max(2 * u, kReturnMost * path.radius));
         // Along the surface and no slower for that: what hangs on the far side of a candle comes round it.
         Vec3 way = -off;
         if (d > path.radius) way -= dot(way, n) * n;
-        target += back * normalizeOr(way, {});
+        way = normalizeOr(way, {});
+        // Against what does not give way no harder than gravity: pushed and pressed back, a pool at rest would boil.
+        const float rest = length(f.gravity) * f.dt / dragOf(path.strength, f.dt);
+        target += std::min(back, std::max(rest, 2 * dot(mean - moving, way))) * way;
     }
     const float far = std::clamp((d / path.reach - 1) / (kLost - 1), 0.0f, 1.0f), fade = 1 - far * far;
-    const float s = path.strength, drag = s < 1 ? std::min(kLock, kHint * f.dt * s / (1 - s)) : kLock;
+    const float s = path.strength, drag = dragOf(s, f.dt);
     // A path across a slope: of the weight it carries what its strength is, else the stream hangs below it by 5 mm.
     // In the air it carries none: where the surface sank away beneath a path, drops hung about its old place.
     if (p.hops[i] < kHops) {
@@ -294,24 +316,21 @@ Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
     return {target, mean, drag * fade};
 }
 
-const Vec4* Paths::guide(const ControlFrame& f) {
+void Paths::guide(const ControlFrame& f, Vec4* guide) {
     const Particles& p = f.particles;
     const size_t movers = static_cast<size_t>(p.moverCount);
-    const size_t padded = static_cast<size_t>(8 * f.neighbors.moverGroups);
-    own_.resizeRaw(movers), mean_.resizeRaw(movers), guide_.resizeRaw(padded);
-    for (size_t i = movers; i < padded; ++i) guide_[i] = {};
+    own_.resizeRaw(movers), mean_.resizeRaw(movers);
     f.tasks.forBlocks(p.moverCount, kRowBlock, [&](int begin, int end, int, int) {
         for (size_t i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i) {
             own_[i] = {0, 0, 0, -1};
-            if (!p.follows[i] || !isControl(p.id[i])) continue;
+            if (!pathOf(p.follows[i]) || !isControl(p.id[i])) continue;
             const Aim a = aim(f, i);
             own_[i] = {a.target.x, a.target.y, a.target.z, a.weight}, mean_[i] = {a.mean.x, a.mean.y, a.mean.z, 0};
         }
     });
     f.tasks.forBlocks(p.moverCount, kRowBlock, [&](int begin, int end, int, int) {
         for (size_t i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i) {
-            guide_[i] = {};
-            if (!p.follows[i]) continue;
+            if (!pathOf(p.follows[i])) continue;
             Vec3 target, mean;
             float drag = 0, weight = 0;
             const auto add = [&](float w, size_t j) {
@@ -332,22 +351,22 @@ const Vec4* Paths::guide(const ControlFrame& f) {
                 target = a.target, mean = a.mean, drag = a.weight;
             }
             target += (1 - paths[p.follows[i] - 1u].strength) * (p.velocity[i].xyz() - mean);
-            guide_[i] = {target.x, target.y, target.z, drag};
+            guide[i] = {target.x, target.y, target.z, drag};
         }
     });
-    return guide_.data();
 }
 
 uint64_t Paths::hash(uint64_t h) const {
     for (size_t s = 0; s < paths.size(); ++s) {
         const Path& p = paths[s];
         if (!p.alive) continue;
-        const float f[10] = {p.radius, p.reach, p.strength, p.speed, p.arrivalTime,
-                             p.share,  p.boost, p.asked,    p.bias,  p.startAbsorptivity};
-        const double d[5] = {p.captured, p.arrived, p.since, p.arrival, p.time};
-        uint64_t words[10];
+        const float f[12] = {p.radius,      p.reach, p.strength, p.speed, p.arrivalTime,
+                             p.share,       p.boost, p.asked,    p.bias,  p.startAbsorptivity,
+                             p.beadSpacing, 0};
+        const double d[6] = {p.captured, p.arrived, p.since, p.arrival, p.time, p.phase};
+        uint64_t words[12];
         static_assert(sizeof words == sizeof f + sizeof d);
-        std::memcpy(words, f, sizeof f), std::memcpy(words + 5, d, sizeof d);
+        std::memcpy(words, f, sizeof f), std::memcpy(words + 6, d, sizeof d);
         h = hashCombine(h, s | static_cast<uint64_t>(p.enabled) << 32 | static_cast<uint64_t>(p.collider) << 33);
         h = hashCombine(hashCombine(h, p.line.hash()), static_cast<uint32_t>(p.priority));
         for (const uint64_t w : words) h = hashCombine(h, w);

@@ -3,33 +3,20 @@
 #pragma once
 
 #include "base/memory.h"
-#include "base/tasks.h"
+#include "control/frame.h"
 #include "control/path_line.h"
-#include "geometry/colliders.h"
-#include "neighbors/neighbors.h"
-#include "particles/particles.h"
 
 #include <vector>
 
 namespace thaw {
-
-struct ControlFrame {
-    Particles& particles;
-    const Neighbors& neighbors; // of the rows as they are
-    const Collider* colliders;
-    int colliderCount;
-    Tasks& tasks;
-    float dt; // s, of the step, or of the sub-step for guide()
-    uint64_t step;
-    Vec3 gravity;
-};
 
 // A path that melt follows: thawPathDef made ready, and what it knows of the melt.
 struct Path {
     bool alive = false, enabled = true;
     PathLine line;
     uint32_t collider = 0; // index + 1 of the one it moves with; 0: it stands still
-    float radius = 0, reach = 0, strength = 0, speed = 0, arrivalTime = 0, share = 1, startAbsorptivity = NAN;
+    float radius = 0, reach = 0, strength = 0, speed = 0, arrivalTime = 0, share = 1, beadSpacing = 0,
+          startAbsorptivity = NAN;
     int priority = 0;
 
     double captured = 0, arrived = 0, spilled = 0; // kg, ever
@@ -38,21 +25,14 @@ struct Path {
     float asked = 0;                               // m/s, of the speed that it has now
     float boost = 0;                               // m/s, asked for above what was set, as the melt lags
     float bias = 0;                                // radii, at forks: for what got less than its share
+    double phase = 0;                              // m that beads have come along it since it was made
     double since = -1, arrival = -1;               // s of its own time of the first capture and arrival; < 0: not yet
     double time = 0;                               // s that it has been on
 
     bool on() const { return alive && enabled && strength > 0; }
-};
-
-// Places and directions of a path's own space in the world, and back.
-struct PathSpace {
-    const Collider* collider; // null: the world's
-    PathSpace(const Path& path, const Collider* colliders)
-        : collider(path.collider ? &colliders[path.collider - 1] : nullptr) {}
-    Vec3 into(Vec3 x) const { return collider ? collider->transform.invert(x) : x; }
-    Vec3 out(Vec3 x) const { return collider ? collider->transform.apply(x) : x; }
-    Vec3 turn(Vec3 v) const { return collider ? rotate(collider->transform.rotation, v) : v; }
-    Vec3 velocityAt(Vec3 x) const { return collider ? collider->velocityAt(x) : Vec3{}; }
+    void arrive(double kilograms);
+    // m/s along it toward the middle of the bead that a place along it is in.
+    float toBead(float along) const;
 };
 
 // Paths on which the flow is guided (thesis 3.5.1). What comes within reach of one follows it until it is at its end
@@ -62,17 +42,15 @@ struct PathSpace {
 // stays (Thuerey, Keiser, Pauly, Ruede 2006).
 class Paths {
 public:
-    explicit Paths(Allocator& allocator)
-        : own_(allocator), mean_(allocator), guide_(allocator), hops_(allocator), distance_(allocator) {}
+    explicit Paths(Allocator& allocator) : own_(allocator), mean_(allocator), hops_(allocator), distance_(allocator) {}
 
     std::vector<Path> paths; // by slot
     bool any() const;        // some are alive and on
 
     // Once a step: who follows what and where it is, and the controllers of speed and shares.
     void track(const ControlFrame& f);
-    // For each mover: xyz the velocity it shall have, m/s; w how much more its mass weighs for that, 0: nothing guides
-    // it. Valid until the rows are sorted.
-    const Vec4* guide(const ControlFrame& f);
+    // Writes the drag (see Guide) of the movers that follow a path.
+    void guide(const ControlFrame& f, Vec4* guide);
     // Nobody follows this one any more.
     void forget(Particles& particles, size_t slot);
     uint64_t hash(uint64_t h) const;
@@ -80,7 +58,7 @@ public:
 private:
     struct Aim {
         Vec3 target, mean;
-        float weight;
+        float weight = 0;
     };
     bool capture(const ControlFrame& f, size_t row, Vec3 x);
     Aim aim(const ControlFrame& f, size_t row) const;
@@ -88,7 +66,6 @@ private:
     void steer(const ControlFrame& f);
 
     Array<Vec4> own_, mean_; // of control particles; own_.w < 0: it is none
-    Array<Vec4> guide_;
     Array<uint8_t> hops_;
     Array<float> distance_; // per mover, m from what it follows
 };

@@ -27,18 +27,22 @@ float bendOf(const Collider& c, float spacing) {
     return inner * inner;
 }
 
-// The nearest walls in reach, nearest first; of equals the one with the lower index.
+// Keeps the nearest, nearest first; of equals the one that came first.
+void keep(const Contact& k, Contact (&out)[Motion::kContacts], int& n) {
+    int at = n < Motion::kContacts ? n++ : n;
+    if (at == Motion::kContacts && !(k.distance < out[--at].distance)) return;
+    for (; at > 0 && k.distance < out[at - 1].distance; --at) out[at] = out[at - 1];
+    out[at] = k;
+}
+
+// The nearest walls in reach.
 int findContacts(const WallFinder& walls, const Collider* colliders, Vec3 p, float reach,
                  Contact (&out)[Motion::kContacts]) {
     int n = 0;
     walls.forNear(p, reach, [&](float distance, Vec3 normal, const Collider& c) {
         // What comes near within the sub-step is met now.
         if (!(distance < reach) && !(c.moves && distance - dot(normal, c.displacement(p)) < reach)) return;
-        const Contact k{normal, distance, c.adhesive, static_cast<uint16_t>(&c - colliders)};
-        int at = n < Motion::kContacts ? n++ : n;
-        if (at == Motion::kContacts && !(k.distance < out[--at].distance)) return;
-        for (; at > 0 && k.distance < out[at - 1].distance; --at) out[at] = out[at - 1];
-        out[at] = k;
+        keep({normal, distance, c.adhesive, static_cast<uint16_t>(&c - colliders)}, out, n);
     });
     return n;
 }
@@ -81,14 +85,16 @@ void Motion::findWalls(const MotionFrame& f, int begin, int end, int block) {
 
         Contact found[kContacts];
         const float far = std::max(1.0f, kAdhesionReach / kSupport) * h;
-        const int n = walls.empty() ? 0 : findContacts(walls, f.colliders, x, far, found);
+        int n = walls.empty() ? 0 : findContacts(walls, f.colliders, x, far, found);
+        if (rims_ && f.rim[i].w < h) keep({f.rim[i].xyz(), f.rim[i].w, false, kRim}, found, n);
         contactCount_[i] = static_cast<uint8_t>(n);
         for (int k = 0; k < n; ++k) {
             const size_t c = i * kContacts + static_cast<size_t>(k);
             contact_[c] = {found[k].normal.x, found[k].normal.y, found[k].normal.z, found[k].distance};
             contactAdhesive_[c] = found[k].adhesive, contactOf_[c] = found[k].collider;
             if (!wallsMove_) continue;
-            const Vec3 u = f.colliders[found[k].collider].velocityAt(x);
+            const Vec3 rim = rims_ && f.rimVelocity ? f.rimVelocity[i].xyz() : Vec3{};
+            const Vec3 u = found[k].collider == kRim ? rim : f.colliders[found[k].collider].velocityAt(x);
             wallVelocity_[c] = {u.x, u.y, u.z, 0};
         }
     }
@@ -104,7 +110,8 @@ void Motion::weighWalls(const MotionFrame& f, size_t i, float& fraction, Vec3& g
     for (int k = 0; k < n; ++k) {
         const size_t c = first + static_cast<size_t>(k);
         const float distance = unlike_ ? mirrorDistance(f, i, c) : contact_[c].w, q = std::max(-1.0f, distance / h);
-        const float bend = q < 1 ? bendOf(f.colliders[contactOf_[c]], h / kSupport) : 0;
+        const bool rim = contactOf_[c] == kRim;
+        const float bend = !(q < 1) ? 0 : rim ? 1 : bendOf(f.colliders[contactOf_[c]], h / kSupport);
         share[k] = q < 1 ? bend * WallTable::lookup(table.mirrored, q) : 0;
         slope[k] = q < 1 ? -bend * WallTable::lookup(table.mirroredGradient, q) / h : 0;
         open *= 1 - share[k];
@@ -115,7 +122,7 @@ void Motion::weighWalls(const MotionFrame& f, size_t i, float& fraction, Vec3& g
         for (int l = 0; l < n && others != 0; ++l)
             if (l != k) others *= 1 - share[l];
         if (others != 0) gradient += others * contact_[first + static_cast<size_t>(k)].xyz();
-        if (reporting_ || wallsMove_) contactSlope_[first + static_cast<size_t>(k)] = others;
+        if (kicks() || wallsMove_) contactSlope_[first + static_cast<size_t>(k)] = others;
     }
     fraction = 1 - open;
 }

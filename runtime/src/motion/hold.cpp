@@ -58,6 +58,13 @@ bool Hold::touchesToldApart(const HoldFrame& f, int row, const WallFinder& walls
         const float moved = length(v - own) * f.dt;
         return moved <= kSlow * spacing && distance < (moved < kRest * spacing ? restTouch : touch) * spacing;
     };
+    if (p.flags[k] & kMoulded) {
+        const uint16_t on = f.mouldOn[shapeOf(p.follows[k]) - 1];
+        if (slow(on ? f.colliders[on - 1].velocityAt(x) : Vec3{}, 0, kWallTouch, kWallTouch)) {
+            anchor_[k] = on;
+            return true;
+        }
+    }
     float nearest = INFINITY;
     bool touches = false;
     walls.forNear(x, kRestWallTouch * spacing, [&](float distance, Vec3, const Collider& c) {
@@ -109,7 +116,8 @@ HoldResult Hold::decide(const HoldFrame& f, int begin, int end) {
         if (!slow && !f.rigid.any()) continue;
         const auto rests = [&](float by) { return by < kRest * spacing; };
         if (slow && !gathered) gather(f, begin, end, walls), gathered = true;
-        bool touches = slow && nearWall(walls, x, (rests(moved) ? kRestWallTouch : kWallTouch) * spacing);
+        bool touches = slow && ((p.flags[k] & kMoulded) ||
+                                nearWall(walls, x, (rests(moved) ? kRestWallTouch : kWallTouch) * spacing));
         // What is elastic bonds with what it lies against (Bonds): only a wall holds it.
         if (!touches && !m.soft()) {
             // What is fixed may be on its way: only what is slow against it sets, on the nearest.
@@ -154,7 +162,7 @@ void Hold::reach(const HoldFrame& f) {
             const uint32_t i = static_cast<uint32_t>(row);
             state_[i] = kStay;
             if (!(p.flags[i] & kFixed) || p.piece[i]) continue;
-            bool held = reached(i);
+            bool held = (p.flags[i] & kMoulded) || reached(i);
             if (!held) {
                 if (!gathered) gather(f, begin, end, walls), gathered = true;
                 held = nearWall(walls, p.position[i].xyz(), kAnchor * p.position[i].w / kSupport);

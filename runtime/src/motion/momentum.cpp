@@ -134,8 +134,12 @@ void Motion::moveRigidly(const MotionFrame& f, const uint32_t* rows, size_t size
         const double d[3] = {p.position[i].x - center[0], p.position[i].y - center[1], p.position[i].z - center[2]};
         const double r[3] = {residual_[i].x, residual_[i].y, residual_[i].z};
         double D[3][3] = {{m, 0, 0}, {0, m, 0}, {0, 0, m}};
-        if (f.guide)
-            for (int s = 0; s < 3; ++s) D[s][s] += m * static_cast<double>(f.guide[i].w);
+        if (f.guide) {
+            const Vec3 axis = f.unguided ? f.unguided[i].xyz() : Vec3{};
+            const double a[3] = {axis.x, axis.y, axis.z}, w = m * static_cast<double>(f.guide[i].w);
+            for (int s = 0; s < 3; ++s)
+                for (int t = 0; t < 3; ++t) D[s][t] += w * ((s == t ? 1 : 0) - a[s] * a[t]);
+        }
         if (contactCount_[i]) {
             const Vec4 a = wallDrag_[2 * i], c = wallDrag_[2 * i + 1];
             D[0][0] += a.x, D[1][1] += a.y, D[2][2] += a.z;

@@ -70,11 +70,13 @@ void Motion::begin(const MotionFrame& f) {
         colliderBounds_[static_cast<size_t>(c)] = o.sweptBounds();
         wallsMove_ |= o.moves, slippery_ |= o.slipLength > 0, thinWalls_ |= o.halfThickness() < kThinWall * f.spacing;
     }
-    reporting_ = reporters_ > 0;
+    reporting_ = reporters_ > 0, rims_ = f.rim;
+    wallsMove_ |= f.rim && f.rimVelocity;
     reports_.assign(sums_.size() * reporters_, {});
-    if (reporting_) kick_.assign(movers * kContacts, {}), heldKick_.assign(movers, {});
+    if (kicks()) kick_.assign(movers * kContacts, {});
+    if (reporting_) heldKick_.assign(movers, {});
     contactOf_.resizeRaw(movers * kContacts);
-    if (reporting_ || wallsMove_) contactSlope_.resizeRaw(movers * kContacts);
+    if (kicks() || wallsMove_) contactSlope_.resizeRaw(movers * kContacts);
     if (wallsMove_) wallVelocity_.resizeRaw(movers * kContacts), wallPush_.resizeRaw(movers);
     heldMoves_ = f.heldSpeed > 0;
     if (heldMoves_) heldVelocity_.resizeRaw(movers);

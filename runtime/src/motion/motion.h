@@ -40,9 +40,17 @@ struct MotionFrame {
     // Per mover: xyz velocity in m/s that it shall have, w how much more its mass weighs for that (an implicit drag);
     // null: nothing guides the flow.
     const Vec4* guide = nullptr;
+    const Vec4* unguided =
+        nullptr; // with guide, per mover: a unit direction that its drag leaves free, or 0; null: all 0
+    // With guide, per mover: xyz the inward normal of a rim that holds it like a smooth wall, w how far off that is in
+    // m, infinity: none does; null: none at all. rimVelocity: m/s, of the rims, null: they stand.
+    const Vec4* rim = nullptr;
+    const Vec4* rimVelocity = nullptr;
     SafePoints* safePoints = nullptr;          // at each of which iterations may be given up; null: none are
     int leastViscosity = 1, leastPressure = 1; // iterations that are done however late it is
 
+    // Of a mover's velocity, what the guide has a say in.
+    Vec3 guided(size_t i, Vec3 v) const { return unguided ? v - dot(unguided[i].xyz(), v) * unguided[i].xyz() : v; }
     BondFrame bondFrame() const {
         return {particles, neighbors, volume, materials, colliders, colliderCount, tasks, dt, gravity, rigid};
     }
@@ -90,6 +98,7 @@ public:
     static constexpr int kContacts = 4; // walls that a mover feels at once, the nearest
 
 private:
+    static constexpr uint16_t kRim = 0xffff; // in place of a collider
     bool touches(size_t i) const { return contactCount_[i] || held_[i].w < INFINITY; }
     void land(const MotionFrame& f);
     void findWalls(const MotionFrame& f, int begin, int end, int block);
@@ -116,8 +125,9 @@ private:
     void reportHeldDrag(const MotionFrame& f);
     void reportHeldPush(const MotionFrame& f);
     void reportHeldKicks(const MotionFrame& f);
+    bool kicks() const { return reporting_ || rims_; }
     void kick(size_t contact, Vec3 change) {
-        if (reporting_) kick_[contact].setXyz(kick_[contact].xyz() + change);
+        if (kicks()) kick_[contact].setXyz(kick_[contact].xyz() + change);
     }
     void returnMomentum(const MotionFrame& f, bool every);
     void returnShared(const MotionFrame& f);
@@ -129,6 +139,7 @@ private:
     void addSprings(const MotionFrame& f, int begin, int end);
     bool regrip(const MotionFrame& f);
     void bookGuide(const MotionFrame& f);
+    void bookRims(const MotionFrame& f);
     void reportGrip(const MotionFrame& f);
     bool gripped(size_t i) const { return bonded_ && grip_[i].w > 0; }
     bool slides(size_t i) const { return bonded_ && grip_[i].w >= kSlides; }
@@ -163,25 +174,26 @@ private:
     MotionStats stats_;
     size_t reporters_ = 0; // colliders that report
     bool wallsMove_ = false, reporting_ = false, thinWalls_ = false, heldMoves_ = false, slippery_ = false;
+    bool rims_ = false;      // some movers are held by rims
     bool unlike_ = false;    // liquids of different densities move
     bool otherHeld_ = false; // not all that is fixed is still or carried along (see mirrors)
     Array<Box> colliderBounds_;
     Array<Vec4> contact_;            // kContacts per mover: xyz outward normal, w distance in m; nearest first
     Array<uint8_t> contactAdhesive_; // per contact
     Array<uint8_t> contactCount_;    // per mover
-    Array<uint16_t> contactOf_;      // per contact: the collider
+    Array<uint16_t> contactOf_;      // per contact: the collider, or kRim
     Array<float> contactSlope_;      // per contact: its part of the wall gradient along its normal, 1/m
     // Of a mover's mirror in its walls: unlike: how much is its neighbours', 0..1; own: what of that it lacks itself;
     // share: what each neighbour has, by weight.
     struct Mirror {
         float unlike, own, share;
     };
-    Array<Mirror> mirror_;       // per mover; when unlike
-    Array<float> mirrorChange_;  // per mover, of the density error in this iteration; when unlike
-    Array<Vec4> wallVelocity_;   // per contact, m/s; when walls move
-    Array<Vec4> wallPush_;       // per mover: no-slip block times wall velocity, kg m/s; when walls move
-    Array<Vec4> heldVelocity_;   // per mover: of the fixed particles around it, m/s; when they move
-    Array<Vec4> kick_;           // per contact: what the wall did to the velocity, m/s; when some collider reports
+    Array<Mirror> mirror_;      // per mover; when unlike
+    Array<float> mirrorChange_; // per mover, of the density error in this iteration; when unlike
+    Array<Vec4> wallVelocity_;  // per contact, m/s; when walls move
+    Array<Vec4> wallPush_;      // per mover: no-slip block times wall velocity, kg m/s; when walls move
+    Array<Vec4> heldVelocity_;  // per mover: of the fixed particles around it, m/s; when they move
+    Array<Vec4> kick_; // per contact: what the wall did to the velocity, m/s; when some collider reports, or with rims
     Array<Vec4> heldKick_;       // per mover: what clamps at held particles did, m/s; the same
     Array<int32_t> reportSlot_;  // per collider: its number among those that report, -1: none
     Array<ImpulseSums> reports_; // per block and reporting collider

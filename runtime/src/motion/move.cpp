@@ -251,7 +251,8 @@ void Motion::move(const MotionFrame& f) {
             if (!walls.empty()) pushOut(walls, standoff, 1, tally, start, p.velocity[i].w, x, v);
             p.position[i].setXyz(x), p.velocity[i].setXyz(v);
             for (size_t c = i * kContacts, n = c + contactCount_[i]; reporting_ && c < n; ++c)
-                tally.add(f.colliders[contactOf_[c]], start, p.velocity[i].w, kick_[c].xyz());
+                if (contactOf_[c] != kRim)
+                    tally.add(f.colliders[contactOf_[c]], start, p.velocity[i].w, kick_[c].xyz());
             sums.c = std::max(sums.c, dot(v, v));
         }
         sums_[static_cast<size_t>(block)] = sums;

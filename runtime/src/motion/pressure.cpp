@@ -56,8 +56,8 @@ void Motion::pressure(const MotionFrame& f) {
         });
         if (f.coupling && f.coupling->any()) f.coupling->press(f, point_.data()), f.coupling->settle(f);
     }
-    if (!reporting_) return;
-    reportHeldPush(f);
+    if (!kicks()) return;
+    if (reporting_) reportHeldPush(f);
     // Warm start and iterations together have applied the pressure as it is now.
     f.tasks.forBlocks(f.neighbors.moverGroups, kBlock, [&](int begin, int end, int, int) {
         for (int r = 8 * begin, last = std::min(8 * end, p.moverCount); r < last; ++r) {
@@ -68,6 +68,7 @@ void Motion::pressure(const MotionFrame& f) {
             if (unlike_) reportMirrors(f, i);
         }
     });
+    if (rims_) bookRims(f);
 }
 
 } // namespace thaw

@@ -48,12 +48,16 @@ void invert(Vec4& diagonal, Vec4& cross) {
 
 // What a wall's no-slip does to a mover, kg. Slip: the velocity is the wall's that far behind it (Navier).
 Motion::WallShear Motion::wallShear(const MotionFrame& f, size_t i, size_t c) const {
+    const bool rim = contactOf_[c] == kRim;
     const WallTable& table = wallTable();
     const float h = f.particles.position[i].w, nearest = kWallStandoff / kSupport, q = contact_[c].w / h,
                 near = std::max(q, nearest);
     float tangent = kSupport * firstLayer(q * kSupport) / near;
     const float normal = WallTable::lookup(table.normal, std::max(q, 0.0f));
-    if (slippery_) tangent *= near * h / (near * h + f.colliders[contactOf_[c]].slipLength);
+    if (rim)
+        tangent = 0;
+    else if (slippery_)
+        tangent *= near * h / (near * h + f.colliders[contactOf_[c]].slipLength);
     const float weight = f.dt * trait_[i].x * shearMoment() * f.volume[i] / (h * h);
     return {weight * tangent, weight * (normal - tangent)};
 }
@@ -76,7 +80,7 @@ void Motion::applyViscosity(const MotionFrame& f, const Vec4* velocity, int begi
     if (f.guide)
         for (int r = 8 * begin; r < last; ++r) {
             const size_t i = static_cast<size_t>(r);
-            image_[i].setXyz(image_[i].xyz() + f.guide[i].w * trait_[i].z * velocity[i].xyz());
+            image_[i].setXyz(image_[i].xyz() + f.guide[i].w * trait_[i].z * f.guided(i, velocity[i].xyz()));
         }
     for (int r = last; r < 8 * end; ++r) image_[static_cast<size_t>(r)] = {};
     if (!bonded_) return;
@@ -144,11 +148,26 @@ void Motion::bookGuide(const MotionFrame& f) {
         const Vec4 g = f.guide[i], v = p.velocity[i], u = before_[i];
         if (!(g.w > 0)) continue;
         const double weight = static_cast<double>(g.w) * trait_[i].z;
-        const double J[3] = {weight * (static_cast<double>(g.x) - v.x), weight * (static_cast<double>(g.y) - v.y),
-                             weight * (static_cast<double>(g.z) - v.z)};
+        const Vec3 change = f.guided(i, g.xyz() - v.xyz());
+        const double J[3] = {weight * change.x, weight * change.y, weight * change.z};
         for (int a = 0; a < 3; ++a) stats_.guideImpulse[a] += J[a];
         stats_.guideEnergy += 0.5 * (J[0] * (static_cast<double>(u.x) + v.x) + J[1] * (static_cast<double>(u.y) + v.y) +
                                      J[2] * (static_cast<double>(u.z) + v.z));
+    }
+}
+
+// The same of what rims held back, and of what was pressed against them.
+void Motion::bookRims(const MotionFrame& f) {
+    const Particles& p = f.particles;
+    for (int r = 0; r < p.moverCount; ++r) {
+        const size_t i = static_cast<size_t>(r);
+        for (size_t c = i * kContacts, n = c + contactCount_[i]; c < n; ++c) {
+            if (contactOf_[c] != kRim) continue;
+            const Vec3 v = p.velocity[i].xyz(), k = kick_[c].xyz();
+            const double m = trait_[i].z, J[3] = {m * k.x, m * k.y, m * k.z};
+            for (int a = 0; a < 3; ++a) stats_.guideImpulse[a] += J[a];
+            stats_.guideEnergy += J[0] * (v.x - 0.5 * k.x) + J[1] * (v.y - 0.5 * k.y) + J[2] * (v.z - 0.5 * k.z);
+        }
     }
 }
 
@@ -203,7 +222,9 @@ void Motion::viscosity(const MotionFrame& f) {
             }
             if (f.guide) {
                 const float drag = f.guide[i].w * mass;
-                diagonal.setXyz(diagonal.xyz() + Vec3{drag, drag, drag});
+                const Vec3 n = f.unguided ? f.unguided[i].xyz() : Vec3{};
+                diagonal.setXyz(diagonal.xyz() + drag * Vec3{1 - n.x * n.x, 1 - n.y * n.y, 1 - n.z * n.z});
+                cross.setXyz(cross.xyz() - drag * Vec3{n.x * n.y, n.x * n.z, n.y * n.z});
             }
             if (bonded_ && f.coupling)
                 if (const SoftContacts::Contact* c = f.coupling->softOf(i)) {
@@ -242,7 +263,7 @@ void Motion::viscosity(const MotionFrame& f) {
                 const size_t i = static_cast<size_t>(r);
                 Vec3 res = trait_[i].z * before_[i].xyz() - image_[i].xyz();
                 if (wallsMove_ && contactCount_[i]) res += wallPush_[i].xyz();
-                if (f.guide) res += f.guide[i].w * trait_[i].z * f.guide[i].xyz();
+                if (f.guide) res += f.guide[i].w * trait_[i].z * f.guided(i, f.guide[i].xyz());
                 if (bonded_ && f.coupling)
                     if (const SoftContacts::Contact* c = f.coupling->softOf(i)) res += c->push(f.dt);
                 residual_[i] = {res.x, res.y, res.z, 0};
@@ -366,7 +387,7 @@ void Motion::viscosity(const MotionFrame& f) {
     if (sound && f.guide) bookGuide(f);
     if (pieces) pieces->finish(f, sound);
     if (sound) reportHeldDrag(f);
-    if (sound && reporting_)
+    if (sound && kicks())
         forMovers([&](int begin, int, int last, BlockSums&) {
             for (int r = 8 * begin; r < last; ++r) {
                 const size_t i = static_cast<size_t>(r);

@@ -10,11 +10,12 @@
 namespace thaw {
 
 enum ParticleFlag : uint8_t {
-    kFixed = 1 << 0,   // solid and held
-    kSurface = 1 << 1, // exposed to air
-    kAsleep = 1 << 2,  // fixed for as long as nothing pulls at its bonds
-    kRigid = 1 << 3,   // fixed, but to a rigid piece: moves with it
-    kUnseeded = 1 << 4 // molten through, of a material that undercools, and no solid touches it: stays liquid
+    kFixed = 1 << 0,    // solid and held
+    kSurface = 1 << 1,  // exposed to air
+    kAsleep = 1 << 2,   // fixed for as long as nothing pulls at its bonds
+    kRigid = 1 << 3,    // fixed, but to a rigid piece: moves with it
+    kUnseeded = 1 << 4, // molten through, of a material that undercools, and no solid touches it: stays liquid
+    kMoulded = 1 << 5   // a shape that it fills holds it, as good as a wall
 };
 
 // What Levels knows of how near the surface and the medial axis are, in eighths of a spacing (FeatureSize).
@@ -43,9 +44,9 @@ struct Feature {
     X(uint32_t, id)          /* stable, never reused */                                                                \
     X(uint32_t, bondSlot)    /* where its bonds are (Bonds), 0 none */                                                 \
     X(uint32_t, fine) /* first of its points in Reference + 1; 0: it has none, or not the ones it was filled with */   \
-    X(float, along)   /* m on the path that it follows */                                                              \
+    X(float, along)   /* m on the path that it follows; J/kg that the shape which cools it left it, or 0 */            \
     X(uint8_t, hops)  /* of what follows a path: from neighbour to neighbour to what it lies on; grows in the air */   \
-    X(uint16_t, follows) /* path that guides it, its slot + 1; 0: none */                                              \
+    X(uint16_t, follows) /* path or shape that guides it (pathOf, shapeOf); 0: none */                                 \
     X(uint16_t, body)                                                                                                  \
     X(uint16_t, piece)  /* rigid piece that a fixed row is part of, its slot + 1; 0: held, or a mover */               \
     X(uint16_t, anchor) /* fixed: 1 + the collider that it hangs on, of those that are told apart; else 0 */           \
@@ -64,6 +65,13 @@ inline float settled(float blend, float error, float dt) {
     if (blend >= 0.5f * kPending) return error - (blend - kPending);
     const float rest = blend * (1 - (dt < 1.0f / 12 ? 12 * dt : 1));
     return rest > 1e-4f || rest < -1e-4f ? rest : 0;
+}
+
+// Particles::follows: slot + 1 of a path, or of a shape with this bit.
+inline constexpr uint16_t kShapeBit = 0x8000;
+inline uint16_t pathOf(uint16_t follows) { return follows & kShapeBit ? uint16_t{0} : follows; }
+inline uint16_t shapeOf(uint16_t follows) {
+    return follows & kShapeBit ? static_cast<uint16_t>(follows & ~kShapeBit) : uint16_t{0};
 }
 
 inline uint8_t paintedAbsorptivity(float a) { return static_cast<uint8_t>(1.5f + 254 * a); }

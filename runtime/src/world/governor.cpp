@@ -93,7 +93,8 @@ float Governor::predict(const Needs& n, const thawWork& w, int subStepsWanted) c
     if (n.movers > 0) {
         const float its = std::min(static_cast<float>(w.viscosityIterations), viscosityPerSubStep_ * 1.25f + 1);
         ms += movers * steps *
-              (perMover_ + perViscosity_ * (its + 1) + perPressure_ * static_cast<float>(w.pressureIterations));
+              (perMover_ + static_cast<float>(n.control) * perControl_ + perViscosity_ * (its + 1) +
+               perPressure_ * static_cast<float>(w.pressureIterations));
     }
     return ms;
 }
@@ -102,7 +103,8 @@ float Governor::rest(const Needs& n, int subStepsLeft) const {
     const float particles = static_cast<float>(n.particles), movers = static_cast<float>(n.movers);
     const float least = perViscosity_ * (kLeastViscosity + 1) + perPressure_ * kLeastPressure;
     return movers * perMover_ * collisionShare_ + particles * perExposure_ * afterShare_ +
-           static_cast<float>(subStepsLeft) * (particles * perParticle_ + movers * (perMover_ + least));
+           static_cast<float>(subStepsLeft) *
+               (particles * perParticle_ + movers * (perMover_ + static_cast<float>(n.control) * perControl_ + least));
 }
 
 void Governor::chooseLevel(const Needs& n, float target, const thawWork& least, const thawWork& most,
@@ -205,6 +207,7 @@ void Governor::learnPrices(const Cost& c) {
     if (c.heatRan) perHeat_.learn(s[thawStage_conduction] + s[thawStage_loss], n * std::max(1, c.heatPasses));
     if (m > 0) {
         perMover_.learn(s[thawStage_forces] + s[thawStage_collision], m);
+        if (s[thawStage_control] > 0) perControl_.learn(s[thawStage_control], m);
         blendShare(collisionShare_, s[thawStage_collision], s[thawStage_forces] + s[thawStage_collision]);
         if (c.viscosityIterations > 0)
             perViscosity_.learn(s[thawStage_viscosity],

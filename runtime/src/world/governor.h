@@ -75,6 +75,7 @@ private:
     Price perMover_ = 6e-5f;     // forces, collision, per mover and sub-step
     Price perViscosity_ = 1e-5f; // per mover and iteration
     Price perPressure_ = 1e-5f;  // per mover and iteration
+    Price perControl_ = 2e-5f;   // who follows what, per mover and sub-step
     float fixed_ = 0.05f;        // per step
     // Shares of the above that come after the iterations: collision of perMover_; levels and stats of perExposure_.
     float collisionShare_ = 0.5f, afterShare_ = 0.5f;

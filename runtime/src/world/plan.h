@@ -22,7 +22,9 @@ struct Needs {
     bool awayFromAmbient = true;            // something is warmer or colder than ambient
     bool burns = false;                     // something is hot enough to turn to vapour
     bool heatDue = true;                    // by heatInterval
-    bool control = false;                   // some path is on
+    bool control = false;                   // some path or shape is on
+    bool cools = false;                     // some shape does
+    bool ledBefore = false;                 // something moved when control last ran: it has to see that it stopped
     bool levels = false;                    // some solid could be coarser or finer than it is
     bool levelsChanged = false;             // the last look at them changed some, or left some for later
     int finestLevel = 0, coarsestLevel = 3; // of the last plan

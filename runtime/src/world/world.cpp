@@ -14,8 +14,6 @@
 namespace thaw {
 namespace {
 
-// A piece that lost its hold may hang this many steps: looking for one costs about a millisecond at 12,000 particles.
-constexpr uint32_t kRelabelInterval = 8;
 // Below this difference, temperatures count as equal: no conduction, no loss.
 constexpr float kEqualTemperature = 1e-3f; // K
 constexpr int kRowBlock = 2048;
@@ -56,8 +54,8 @@ World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
       motion_(allocator), rigid_(allocator), rigidLiquid_(allocator), heat_(allocator), hold_(allocator),
       anchors_(allocator), bonds_(allocator), surface_(allocator), reference_(allocator), levels_(allocator),
-      paths_(allocator), volume_(allocator), invDensity_(allocator), featureSizes_(allocator), blockTotals_(allocator),
-      expanded_(allocator) {
+      control_(allocator), volume_(allocator), invDensity_(allocator), featureSizes_(allocator),
+      blockTotals_(allocator), expanded_(allocator) {
     particles.allocate(d.maxParticles);
     const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
     volume_.resize(n), invDensity_.resize(n);
@@ -155,7 +153,8 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     const bool guided = on(thawStage_control);
     if (guided) {
         auto t = timed(thawStage_control);
-        paths_.track(controlFrame(dt));
+        controlHeat_ += control_.track(controlFrame(dt));
+        led_ = now.movers > 0;
     }
     MotionStats motionStats{};
     if (on(thawStage_collision) || rigid_.moving() || (rigid_.any() && collidersMove())) {
@@ -167,10 +166,10 @@ uint32_t World::step(float dt, const thawBudget& budget) {
             }
             if (toldApart_) carryHeld(h, s, subSteps);
             expectRest(subSteps - 1 - s);
-            const Vec4* guide = nullptr;
+            Guide guide;
             if (guided) {
                 auto t = timed(thawStage_control);
-                guide = paths_.guide(controlFrame(h));
+                guide = control_.guide(controlFrame(h));
             }
             const MotionFrame frame = motionFrame(h, subSteps, work, guide);
             {
@@ -290,7 +289,7 @@ Needs World::needs() const {
         n.areaSources += strength != 0 && hasExtent(s.type);
     }
     n.timeScaleZero = def.thermalTimeScale == 0;
-    n.control = paths_.any();
+    n.control = control_.any(), n.cools = control_.cools(), n.ledBefore = led_;
     n.levels = anyCoarse_ || mayBeCoarse();
     n.levelsChanged = levelsChanged_, n.full = full_;
     n.finestLevel = plan.work.finestLevel, n.coarsestLevel = plan.work.coarsestLevel;
@@ -340,8 +339,16 @@ void World::arrive() {
             c.impulse[3 + k] -= d[(k + 1) % 3] * J[(k + 2) % 3] - d[(k + 2) % 3] * J[(k + 1) % 3];
         c.transform = c.next;
         listsStale_ = true; // also where nothing else moves: what a wall covers is no surface
+        ++wallVersion_;
         if (c.occluder) ++colliderVersion_;
     }
+}
+
+// Who holds what has changed: the next step looks anew.
+void World::lookForHold() {
+    rigid_.wakeAll();
+    listsStale_ = holdStale_ = true;
+    stepsSinceRelabel_ = kRelabelInterval;
 }
 
 void World::findAnchors() {
@@ -362,7 +369,7 @@ void World::setColliderTarget(uint32_t index, const Transform& target) {
 void World::teleportCollider(uint32_t index, const Transform& to) {
     Collider& c = colliders[index];
     c.transform = to, c.hasTarget = false;
-    ++colliderVersion_;
+    ++colliderVersion_, ++wallVersion_;
     listsStale_ = holdStale_ = true;
     stepsSinceRelabel_ = kRelabelInterval;
 }
@@ -487,7 +494,7 @@ void World::fillMassArrays() {
         volume_[static_cast<size_t>(i)] = invDensity_[static_cast<size_t>(i)] = 0;
 }
 
-MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work, const Vec4* guide) {
+MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work, const Guide& guide) {
     return {particles,
             neighbors_,
             volume_.data(),
@@ -507,7 +514,10 @@ MotionFrame World::motionFrame(float dt, int subSteps, const thawWork& work, con
             rigid_.any() ? &rigid_ : nullptr,
             rigid_.any() ? &rigidLiquid_ : nullptr,
             reference_.point.empty() ? nullptr : &reference_,
-            guide,
+            guide.drag,
+            guide.free,
+            guide.rim,
+            guide.rimVelocity,
             &safePoints_,
             Governor::kLeastViscosity,
             Governor::kLeastPressure};
@@ -532,9 +542,9 @@ bool World::anySoft() const {
 
 HeatFrame World::heatFrame(double dt, const thawWork& work) {
     spots_.clear(); // setPath made room
-    for (const Path& p : paths_.paths)
+    for (const Path& p : control_.paths())
         if (p.alive && p.enabled && p.startAbsorptivity >= 0) {
-            const Vec3 start = PathSpace(p, colliders.data()).out(p.line.points().front());
+            const Vec3 start = OwnSpace(p.collider, colliders.data()).out(p.line.points().front());
             spots_.push_back({start, p.radius, p.startAbsorptivity});
         }
     return {particles,
@@ -574,7 +584,8 @@ HoldFrame World::holdFrame(float dt, bool relabel) {
             dt,
             {def.gravity.x, def.gravity.y, def.gravity.z},
             relabel,
-            toldApart_};
+            toldApart_,
+            mouldOn_.data()};
 }
 
 void World::holdAndRelease(float dt) {
@@ -660,10 +671,8 @@ template <class F> int World::removeParticles(F&& remove, double& mass, double& 
     particles.count = kept;
     particles.moverCount = std::min(particles.moverCount, kept);
     particles.pad();
-    rigid_.wakeAll();
     rigid_.gather(particles);
-    listsStale_ = holdStale_ = true;
-    stepsSinceRelabel_ = kRelabelInterval;
+    lookForHold();
     return gone;
 }
 
@@ -877,25 +886,26 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
     colliderSlots[slot].take();
     index1 = static_cast<uint32_t>(slot) + 1;
     if (d.reportImpulse) toldApart_ = anchorsFresh_ = true;
-    ++colliderVersion_;
-    rigid_.wakeAll();
-    listsStale_ = holdStale_ = true;
-    stepsSinceRelabel_ = kRelabelInterval;
+    ++colliderVersion_, ++wallVersion_;
+    lookForHold();
     return thawResult_ok;
 }
 
 void World::removeCollider(uint32_t index) {
     colliders[index] = Collider{};
-    for (size_t k = 0; k < paths_.paths.size(); ++k) // a path on it has no place any more
-        if (paths_.paths[k].alive && paths_.paths[k].collider == index + 1) removePath(static_cast<uint32_t>(k));
+    // Controls on it have no place any more.
+    for (size_t k = 0; k < control_.paths().size(); ++k)
+        if (control_.paths()[k].alive && control_.paths()[k].collider == index + 1)
+            removePath(static_cast<uint32_t>(k));
+    for (size_t k = 0; k < control_.shapes().size(); ++k)
+        if (control_.shapes()[k].alive && control_.shapes()[k].collider == index + 1)
+            removeShape(static_cast<uint32_t>(k));
     // What hung on it hangs on nothing now, and on nobody who comes to its place.
     for (int i = 0; i < particles.count; ++i)
         if (particles.anchor[static_cast<size_t>(i)] == index + 1) particles.anchor[static_cast<size_t>(i)] = 0;
     colliderSlots[index].alive = false;
-    ++colliderVersion_;
-    rigid_.wakeAll();
-    listsStale_ = holdStale_ = true;
-    stepsSinceRelabel_ = kRelabelInterval;
+    ++colliderVersion_, ++wallVersion_;
+    lookForHold();
 }
 
 void World::extractSurface(const thawSurfaceDef& d, thawSurfaceView& out) {
@@ -984,7 +994,7 @@ uint64_t World::stateHash() const {
     bytes(reference_.point.data(), reference_.point.size() * sizeof(Vec4));
     bytes(reference_.slope.data(), reference_.slope.size() * sizeof(Vec4));
     if (!reference_.home.empty()) bytes(reference_.home.data(), reference_.home.size() * sizeof(Vec4));
-    return paths_.hash(units_.hash(heat_.hash(rigidLiquid_.hash(rigid_.hash(bonds_.hash(h))))));
+    return control_.hash(units_.hash(heat_.hash(rigidLiquid_.hash(rigid_.hash(bonds_.hash(h))))));
 }
 
 thawLedger World::ledger() const {
@@ -993,13 +1003,14 @@ thawLedger World::ledger() const {
     l.massBurnt = massBurnt_, l.energyBurnt = energyBurnt_;
     l.energyAdded = energyAdded_, l.energyRemoved = energyRemoved_, l.energyNow = energyNow_;
     std::copy(std::begin(controlImpulse_), std::end(controlImpulse_), std::begin(l.controlImpulse));
-    l.controlEnergy = controlEnergy_;
+    l.controlEnergy = controlEnergy_, l.controlHeat = controlHeat_;
     l.painted = painted_, l.absorbed = absorbed_, l.contact = contact_, l.emitted = emitted_, l.convected = convected_;
     l.massError = massAdded_ > 0 ? std::abs(massNow_ - massAdded_ + massRemoved_ + massBurnt_) / massAdded_ : 0;
-    const double expected =
-        energyAdded_ - energyRemoved_ - energyBurnt_ + painted_ + absorbed_ + contact_ - emitted_ - convected_;
+    const double expected = energyAdded_ - energyRemoved_ - energyBurnt_ + painted_ + absorbed_ + contact_ - emitted_ -
+                            convected_ - controlHeat_;
     const double scale = std::max({std::abs(energyAdded_ - energyRemoved_), std::abs(energyBurnt_), std::abs(painted_),
-                                   std::abs(absorbed_), std::abs(contact_), std::abs(emitted_), std::abs(convected_)});
+                                   std::abs(absorbed_), std::abs(contact_), std::abs(emitted_), std::abs(convected_),
+                                   std::abs(controlHeat_)});
     l.energyError = scale > 0 ? std::abs(energyNow_ - expected) / scale : 0;
     return l;
 }
@@ -1012,6 +1023,7 @@ thawCounters World::counters() const {
     for (const Collider& x : colliders) c.colliders += x.alive;
     for (const HeatSource& s : sources) c.heatSources += s.alive;
     for (const Slot& s : pathSlots) c.paths += s.alive;
+    for (const Slot& s : shapeSlots) c.shapes += s.alive;
     c.pieces = pieces(nullptr, 0);
     c.neighborsMax = neighbors_.maxNeighbors, c.neighborsMean = neighbors_.meanNeighbors;
     c.meltedFraction = massNow_ > 0 ? static_cast<float>(liquidMass_ / massNow_) : 0;

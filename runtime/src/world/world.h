@@ -4,7 +4,7 @@
 
 #include "base/safe_points.h"
 #include "base/tasks.h"
-#include "control/paths.h"
+#include "control/control.h"
 #include "geometry/colliders.h"
 #include "geometry/mesh_fill.h"
 #include "heat/heat.h"
@@ -65,6 +65,10 @@ public:
     thawResult setPath(const thawPathDef& def, std::string& message, uint32_t& index1);
     void removePath(uint32_t index);
     thawPathState pathState(uint32_t index) const;
+    // The same of a shape.
+    thawResult setShape(const thawShapeDef& def, std::string& message, uint32_t& index1);
+    void removeShape(uint32_t index);
+    thawShapeState shapeState(uint32_t index) const;
     void extractSurface(const thawSurfaceDef& def, thawSurfaceView& out);
     uint64_t stateHash() const;
     thawLedger ledger() const;
@@ -86,7 +90,7 @@ public:
     std::vector<Slot> colliderSlots;
     std::vector<HeatSource> sources;
     std::vector<Slot> sourceSlots;
-    std::vector<Slot> pathSlots;
+    std::vector<Slot> pathSlots, shapeSlots;
     Particles particles;
     thawPlan plan{};
     thawProfile profile{};
@@ -107,13 +111,14 @@ private:
     void refreshExposure();
     void boundStartPressure(uint16_t body);
     void fillMassArrays();
-    MotionFrame motionFrame(float dt, int subSteps, const thawWork& work, const Vec4* guide);
+    MotionFrame motionFrame(float dt, int subSteps, const thawWork& work, const Guide& guide);
     HeatFrame heatFrame(double dt, const thawWork& work);
     HoldFrame holdFrame(float dt, bool relabel);
     void holdAndRelease(float dt);
     bool collidersMove() const;
     void startColliders(float dt, int subStep, int subSteps);
     void arrive();
+    void lookForHold();
     void carryHeld(float dt, int subStep, int subSteps);
     void findAnchors();
     BondFrame bondFrame(float dt);
@@ -123,6 +128,7 @@ private:
     template <class F> int removeParticles(F&& remove, double& mass, double& energy);
     void burnOff(double heatSeconds);
     ControlFrame controlFrame(float dt);
+    void unmould(size_t shape);
     LevelFrame levelFrame(const thawWork& work, float dt);
     void splitUnder(uint32_t body, const thawBrush& brush);
     // Adds the points of a body to the reference, in the order of their groups. Returns where its origin is.
@@ -142,8 +148,9 @@ private:
     Surface surface_;
     Reference reference_;
     Levels levels_;
-    Paths paths_;
+    Control control_;
     std::vector<HeatFrame::Spot> spots_; // of this step
+    std::vector<uint16_t> mouldOn_;      // per shape, see HoldFrame
     struct PointRange {                  // of a body in the reference
         uint32_t begin = 0, end = 0;
     };
@@ -155,7 +162,12 @@ private:
     Array<float> featureSizes_; // of the last look that a host took
     Array<Totals> blockTotals_;
 
+    // A piece that lost its hold may hang this many steps: looking for one costs about a millisecond at 12,000
+    // particles.
+    static constexpr uint32_t kRelabelInterval = 8;
+
     bool listsStale_ = true;
+    bool led_ = false;          // something moved when control last ran
     bool toldApart_ = false;    // some collider is: particles know what they hang on
     bool anchorsFresh_ = false; // some came to be since the anchors were found
     float heldSpeed_ = 0;       // m/s, of the fastest held particle in this sub-step
@@ -163,6 +175,7 @@ private:
     bool bodiesNew_ = false;    // nobody has looked yet what of them is held
     uint32_t stepsSinceRelabel_ = 0;
     uint64_t colliderVersion_ = 1;
+    uint64_t wallVersion_ = 1;    // of all colliders and their places
     uint64_t surfaceVersion_ = 1; // of the rows, their places and what of them is surface
     uint32_t nextId_ = 1;
     uint64_t steps_ = 0;
@@ -182,7 +195,7 @@ private:
     // Ledger and counters of the last measurement.
     double massAdded_ = 0, massRemoved_ = 0, energyAdded_ = 0, energyRemoved_ = 0;
     double massBurnt_ = 0, energyBurnt_ = 0;
-    double controlImpulse_[3] = {}, controlEnergy_ = 0;
+    double controlImpulse_[3] = {}, controlEnergy_ = 0, controlHeat_ = 0;
     double painted_ = 0, absorbed_ = 0, contact_ = 0, emitted_ = 0, convected_ = 0;
     double massNow_ = 0, energyNow_ = 0, liquidMass_ = 0;
     float minTemperature_ = 0, maxTemperature_ = 0;

@@ -30,7 +30,7 @@ std::vector<Suite> suites() {
         {"heat",
          "conduction, contact, phase change, radiation and loss",
          {conductionCases(), stefanCases(), radiationCases(), surfaceCases(), heatLevelCases(), undercoolingCases()}},
-        {"control", "where paths take the melt", {pathCases()}}};
+        {"control", "where paths and shapes take the melt", {pathCases(), shapeCases()}}};
 }
 
 struct Options {

@@ -59,5 +59,6 @@ CaseList stefanCases();
 CaseList surfaceCases();
 CaseList undercoolingCases();
 CaseList pathCases();
+CaseList shapeCases();
 
 } // namespace thaw::player
