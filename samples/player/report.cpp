@@ -139,6 +139,21 @@ std::string Report::table() const {
     out += formatted("  mass error     %.2e\n", ledger_.massError);
     out += formatted("  energy error   %.2e  (absorbed %.4g J, by contact %.4g J, emitted %.4g J, convected %.4g J)\n",
                      ledger_.energyError, ledger_.absorbed, ledger_.contact, ledger_.emitted, ledger_.convected);
+    const auto after = [](float seconds, const char* verb) {
+        return seconds >= 0 ? formatted(", %s after %.2f s", verb, double(seconds)) : std::string();
+    };
+    for (const PathNote& p : paths)
+        out +=
+            formatted("  path %-9s led %.3g g, of which %.3g g arrived and %.3g g got lost; %.2g mm from it on average",
+                      p.name.c_str(), 1e3 * double(p.state.captured), 1e3 * double(p.state.arrived),
+                      1e3 * double(p.state.spilled), 1e3 * double(p.state.meanDistance)) +
+            after(p.state.arrivalTime, "arrived") + "\n";
+    for (const ShapeNote& s : shapes)
+        out += formatted("  shape %-8s %.1f %% filled with %.3g g, of which %.3g g has set; %.3g g outside",
+                         s.name.c_str(), 100.0 * double(s.state.fill), 1e3 * double(s.state.inside),
+                         1e3 * double(s.state.set), 1e3 * double(s.state.spilled)) +
+               after(s.state.filledAfter, "full") + "\n";
+    if (ledger_.controlHeat > 0) out += formatted("  control        took %.4g J until it set\n", ledger_.controlHeat);
     out += formatted("  compression    %.2f %% mean, %.2f %% most; fastest %.2f m/s; solved with up to %.3g Pa s\n",
                      100.0 * double(c.meanCompression), 100.0 * double(c.maxCompression), double(c.maxSpeed),
                      double(c.apparentViscosity));
@@ -230,6 +245,34 @@ std::string Report::json() const {
         {"massBurnt", ledger_.massBurnt}, {"massError", ledger_.massError}, {"energyError", ledger_.energyError},
         {"massNow", ledger_.massNow},     {"energyNow", ledger_.energyNow}, {"absorbed", ledger_.absorbed},
         {"contact", ledger_.contact},     {"emitted", ledger_.emitted},     {"convected", ledger_.convected}};
+    const Json impulse = {ledger_.controlImpulse[0], ledger_.controlImpulse[1], ledger_.controlImpulse[2]};
+    root["ledger"]["controlImpulse"] = impulse;
+    root["ledger"]["controlEnergy"] = ledger_.controlEnergy, root["ledger"]["controlHeat"] = ledger_.controlHeat;
+    const auto time = [](float seconds) { return seconds >= 0 ? Json(seconds) : Json(nullptr); };
+    for (const PathNote& p : paths)
+        root["paths"].push_back({{"name", p.name},
+                                 {"length", p.state.length},
+                                 {"mass", p.state.mass},
+                                 {"captured", p.state.captured},
+                                 {"arrived", p.state.arrived},
+                                 {"spilled", p.state.spilled},
+                                 {"meanDistance", p.state.meanDistance},
+                                 {"front", p.state.front},
+                                 {"arrivalTime", time(p.state.arrivalTime)},
+                                 {"speed", p.state.speed}});
+    for (const ShapeNote& s : shapes)
+        root["shapes"].push_back({{"name", s.name},
+                                  {"size", s.state.size},
+                                  {"mass", s.state.mass},
+                                  {"inside", s.state.inside},
+                                  {"spilled", s.state.spilled},
+                                  {"set", s.state.set},
+                                  {"captured", s.state.captured},
+                                  {"lost", s.state.lost},
+                                  {"meanDistance", s.state.meanDistance},
+                                  {"fill", s.state.fill},
+                                  {"level", s.state.level},
+                                  {"filledAfter", time(s.state.filledAfter)}});
     Json status = Json::array();
     for (size_t b = 0; b < 32; ++b)
         if (statusCounts_[b])

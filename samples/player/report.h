@@ -19,6 +19,18 @@ public:
     thawBudget budget{};
     float limitMs = 4.0f; // frames are counted against it also when the budget is work units
 
+    // What controls did by the end, for those that the scene has.
+    struct PathNote {
+        std::string name;
+        thawPathState state;
+    };
+    struct ShapeNote {
+        std::string name;
+        thawShapeState state;
+    };
+    std::vector<PathNote> paths;
+    std::vector<ShapeNote> shapes;
+
     // Notes what the last step did. ms: wall clock of the call, by the caller's own watch.
     void addStep(const thawWorld* world, double ms, uint32_t status);
     double heatShare() const; // of the time of all stages: radiation, conduction, loss, and phase

@@ -216,6 +216,16 @@ int runScene(scene::Scene scene, const RunOptions& o) {
         }
     }
     report.finish(world);
+    for (size_t k = 0; k < built.paths.size(); ++k) {
+        Report::PathNote& note = report.paths.emplace_back();
+        note.name = oneLine(scene.paths[k].name, 40);
+        if (thawPath_GetState(world, built.paths[k], &note.state) != thawResult_ok) report.paths.pop_back();
+    }
+    for (size_t k = 0; k < built.shapes.size(); ++k) {
+        Report::ShapeNote& note = report.shapes.emplace_back();
+        note.name = oneLine(scene.shapes[k].name, 40);
+        if (thawShape_GetState(world, built.shapes[k], &note.state) != thawResult_ok) report.shapes.pop_back();
+    }
 
     const std::string text = report.table();
     std::cout << text << std::flush;

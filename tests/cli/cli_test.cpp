@@ -351,6 +351,29 @@ TEST_CASE("run writes its report, its lines and its mesh") {
     CHECK(same == 4);
 }
 
+TEST_CASE("run says what paths and shapes did") {
+    const Folder folder;
+    const std::string scene = folder.write("s.json", R"({"thawScene": 1,
+      "world": {"particleSpacing": 0.004, "thermalTimeScale": 0},
+      "bodies": [{"shape": {"type": "box", "size": [0.03, 0.02, 0.03]}, "position": [0, 0.01, 0], "temperature": 345}],
+      "colliders": [{"name": "floor", "shape": {"type": "plane"}}],
+      "paths": [{"name": "lane", "points": [[0, 0, 0.05], [0, 0, 0.2]], "reach": 0.02}],
+      "shapes": [{"name": "tile", "contours": [[[-0.03, 0, -0.03], [0.03, 0, -0.03], [0.03, 0, 0.03], [-0.03, 0, 0.03]]]}]
+    })");
+    const Answer answer = player({"run", scene, "--seconds", "9", "--json", folder.path("r.json"), "--quiet"});
+    CHECK(answer.exitCode == 0);
+    CHECK(contains(answer.out, "shape tile"));
+    CHECK(contains(answer.out, "path lane"));
+    const auto report = nlohmann::json::parse(readFile(folder.path("r.json")));
+    CHECK(report["shapes"][0]["name"] == "tile");
+    CHECK(report["shapes"][0]["fill"].get<double>() > 0.9);
+    CHECK(report["shapes"][0]["set"].get<double>() == report["shapes"][0]["mass"].get<double>());
+    CHECK(report["shapes"][0]["filledAfter"].get<double>() > 0);
+    CHECK(report["paths"][0]["captured"] == 0);
+    CHECK(report["paths"][0]["arrivalTime"].is_null());
+    CHECK(report["ledger"]["controlHeat"].get<double>() > 0);
+}
+
 TEST_CASE("a run that misses what is asked of it, or cannot write, ends with 1") {
     Folder folder;
     const std::string scene = folder.write("s.json", kSmallScene), file = folder.write("file", "x");

@@ -114,6 +114,37 @@ TEST_CASE("control: a path that crosses itself is followed to its end") {
     CHECK(s.arrivalTime > 0.8f * s.length / 0.1f); // by all of the way
 }
 
+TEST_CASE("control: where paths cross, melt goes on along its own, and what follows none takes the higher priority") {
+    WorldFixture f;
+    pool(f);
+    const std::vector<thawVec3> along{{-0.02f, 0.004f, 0}, {0.12f, 0.004f, 0}},
+        across{{0.05f, 0.004f, -0.06f}, {0.05f, 0.004f, 0.06f}};
+    thawPathDef d = pathDef(along);
+    d.radius = 0.012f, d.reach = 0.03f, d.strength = 0.95f, d.speed = 0.08f;
+    const thawPathId own = addPath(f, d);
+    d.points = across.data(), d.priority = 5;
+    const thawPathId other = addPath(f, d);
+    f.step(300);
+    thawPathState s;
+    REQUIRE(thawPath_GetState(f.world, own, &s) == thawResult_ok);
+    CHECK(s.arrived > 0.85f * s.captured);
+    REQUIRE(thawPath_GetState(f.world, other, &s) == thawResult_ok);
+    CHECK(s.captured < 0.001f);
+
+    // The same block where both begin.
+    for (const int first : {1, -1}) {
+        WorldFixture g;
+        pool(g);
+        const std::vector<thawVec3> left{{0, 0.004f, 0}, {-0.1f, 0.004f, 0}}, right{{0, 0.004f, 0}, {0.1f, 0.004f, 0}};
+        d = pathDef(left), d.reach = 0.04f, d.priority = -first;
+        addPath(g, d);
+        d.points = right.data(), d.priority = first;
+        addPath(g, d);
+        g.step(90);
+        CHECK(static_cast<float>(first) * meanX(g) > 0.02);
+    }
+}
+
 TEST_CASE("control: a path moves with its collider and goes with it") {
     WorldFixture f;
     pool(f);
