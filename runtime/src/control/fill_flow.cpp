@@ -297,8 +297,8 @@ void FillFlow::solve(Vec3 down, float thickness, float spacing) {
     setTargets(down, thickness, kLeast * spacing);
     double covered = 0, whole = 0;
     largest_ = 0;
-    // A cell that has nearly all of its share counts as filled: so fine is the measure not.
-    const float enough = !flat_ ? kFilled : thickness > 0 ? kFilled * thickness : kCovered * spacing;
+    // Layers of particles are no even depth: a cell that has nearly all of its share counts as filled.
+    const float enough = !flat_ ? 1 : thickness > 0 ? kFilled * thickness : kCovered * spacing;
     for (size_t k = 0; k < cells(); ++k) {
         const bool solid = set_[k] + solid_[k] > (flat_ ? std::max(level_, spacing) : 0.6f);
         const float conducts = blocked_[k] ? kWall : solid ? kSolid : share_[k] > kBelongs ? 1 : kOutside;
