@@ -94,6 +94,7 @@ int Anchors::update(const AnchorFrame& f, bool fresh) {
             const uint32_t i = queue_[head];
             const Vec3 x = p.position[i].xyz();
             const float reach = kAnchor * p.position[i].w / kSupport;
+            if (p.flags[i] & kMoulded) ++touched_[f.mouldOn[shapeOf(p.follows[i]) - 1]];
             for (int c = 0; c < f.colliderCount; ++c) {
                 const Box& b = colliderBounds_[static_cast<size_t>(c)];
                 if (!f.colliders[c].alive || x.x < b.lower.x - reach || x.x > b.upper.x + reach ||

@@ -18,6 +18,7 @@ struct AnchorFrame {
     int colliderCount;
     Tasks& tasks;
     Rigid& rigid;
+    const uint16_t* mouldOn; // per shape, see HoldFrame
 };
 
 // Which collider each held piece hangs on, of those that are told apart (carry.h); pieces on all others hang on the

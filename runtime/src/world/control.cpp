@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 // What the world does with the paths and shapes of its host.
+#include "motion/carry.h"
 #include "world/world.h"
 
 namespace thaw {
@@ -136,6 +137,14 @@ thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t
     if (!(s.captured > 0)) control_.empty(controlFrame(0), slot);
     if (held && !s.setting) unmould(slot);
     return thawResult_ok;
+}
+
+// What each shape's moulded rows hang on, of the colliders that are told apart.
+void World::findMoulds() {
+    for (size_t k = 0; k < mouldOn_.size(); ++k) {
+        const uint32_t on = control_.shapes()[k].collider;
+        mouldOn_[k] = on && toldApart(colliders[on - 1]) ? static_cast<uint16_t>(on) : uint16_t{0};
+    }
 }
 
 // What a shape held in the air has lost its hold.

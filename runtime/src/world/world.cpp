@@ -354,7 +354,7 @@ void World::lookForHold() {
 void World::findAnchors() {
     anchorsFresh_ = false;
     if (listsStale_) refreshNeighbors(), listsStale_ = true; // the step's own stage finds the surface anew as well
-    anchors_.update({particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()), tasks, rigid_}, true);
+    anchors_.update(anchorFrame(), true);
 }
 
 // Where a collider shall be at the end of the next step.
@@ -574,6 +574,7 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
 }
 
 HoldFrame World::holdFrame(float dt, bool relabel) {
+    findMoulds();
     return {particles,
             neighbors_,
             materials.data(),
@@ -586,6 +587,12 @@ HoldFrame World::holdFrame(float dt, bool relabel) {
             relabel,
             toldApart_,
             mouldOn_.data()};
+}
+
+AnchorFrame World::anchorFrame() {
+    findMoulds();
+    return {particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()),
+            tasks,     rigid_,     mouldOn_.data()};
 }
 
 void World::holdAndRelease(float dt) {
@@ -604,7 +611,7 @@ void World::holdAndRelease(float dt) {
         if (anyCoarse_) bonds_.deform(bondFrame(dt), reference_);
     }
     if (!toldApart_) return;
-    const AnchorFrame frame{particles, neighbors_, colliders.data(), static_cast<int>(colliders.size()), tasks, rigid_};
+    const AnchorFrame frame = anchorFrame();
     if ((relabel || (moved && anchors_.pressed(frame))) && anchors_.update(frame, false) > 0) listsStale_ = true;
 }
 

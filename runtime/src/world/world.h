@@ -114,6 +114,7 @@ private:
     MotionFrame motionFrame(float dt, int subSteps, const thawWork& work, const Guide& guide);
     HeatFrame heatFrame(double dt, const thawWork& work);
     HoldFrame holdFrame(float dt, bool relabel);
+    AnchorFrame anchorFrame();
     void holdAndRelease(float dt);
     bool collidersMove() const;
     void startColliders(float dt, int subStep, int subSteps);
@@ -128,6 +129,7 @@ private:
     template <class F> int removeParticles(F&& remove, double& mass, double& energy);
     void burnOff(double heatSeconds);
     ControlFrame controlFrame(float dt);
+    void findMoulds();
     void unmould(size_t shape);
     LevelFrame levelFrame(const thawWork& work, float dt);
     void splitUnder(uint32_t body, const thawBrush& brush);
