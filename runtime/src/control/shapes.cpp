@@ -67,12 +67,11 @@ Shapes::Near Shapes::look(const ControlFrame& f, const std::vector<Path>& paths,
     const uint16_t own = shapeOf(p.follows[i]);
     if (own) {
         const Shape& s = shapes[own - 1u];
-        if (!s.on() || p.still(static_cast<int>(i))) return {{}, 0, own};
+        if (!s.on()) return {{}, 0, own};
         const Vec3 at = s.region.into(OwnSpace(s.collider, f.colliders).into(x));
         const float d = s.region.distance(at, outward);
-        if (solid(p, i)) return {outward, d, own};
         if (d < kLost * s.reach && off(s.region, at) < kLost * s.depth &&
-            !((s.flow.full() || s.closed()) && d > f.spacing))
+            (solid(p, i) || !((s.flow.full() || s.closed()) && d > f.spacing)))
             return {outward, d, own};
     }
     if (solid(p, i)) return {};
@@ -105,7 +104,7 @@ void Shapes::track(const ControlFrame& f, std::vector<Path>& paths) {
     fresh_ = true;
     for (Shape& s : shapes) {
         if (s.alive && s.enabled) s.time += static_cast<double>(f.dt);
-        s.mass = s.inside = s.spilled = s.set = s.distance = 0, s.taken = 0;
+        s.mass = s.inside = s.spilled = s.astray = s.set = s.distance = 0, s.taken = 0;
     }
     for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) {
         const uint16_t before = shapeOf(p.follows[i]);
@@ -142,7 +141,7 @@ void Shapes::track(const ControlFrame& f, std::vector<Path>& paths) {
         if (solid(p, i)) s.set += m;
         const bool inside = d <= kStray * p.position[i].w / kSupport;
         if (!inside)
-            s.spilled += m, s.distance += m * static_cast<double>(d);
+            s.spilled += m, s.distance += m * static_cast<double>(d), s.astray += solid(p, i) ? 0 : m;
         else
             s.inside += m;
         if (s.setting && inside && !s.region.flat()) p.flags[i] |= kMoulded;
@@ -217,7 +216,7 @@ void Shapes::fill(const ControlFrame& f, size_t slot) {
     const bool still =
         s.thickness > 0 || !s.region.flat() || s.coming * static_cast<double>(kComing) < kHardly * s.mass;
     const double strays = (1 - static_cast<double>(s.setFill)) * s.mass;
-    if (s.since >= 0 && still && !s.flow.leak() && s.flow.fill() >= s.setFill && s.spilled <= strays) {
+    if (s.since >= 0 && still && !s.flow.leak() && s.flow.fill() >= s.setFill && s.astray <= strays) {
         if (s.filledAfter < 0) s.filledAfter = s.time - s.since;
         s.setting |= s.sets;
     }

@@ -24,6 +24,7 @@ struct Shape {
 
     double captured = 0, lost = 0;                                   // kg, ever
     double mass = 0, inside = 0, spilled = 0, set = 0, distance = 0; // kg now; m, mean of what is outside
+    double astray = 0;                                               // kg of what is outside, that may still come
     double time = 0, since = -1, filledAfter = -1; // s that it has been on, of the first capture and until it was full
     uint64_t walls = 0;                            // version of the colliders that the flow's cells were looked at with
     uint32_t wallsLeft = 0;                        // shares of the cells that are still to be looked at

@@ -36,7 +36,7 @@ thawPlan makePlan(const Needs& n, const thawWork& work) {
     const bool moved = n.listsStale || n.holdStale || n.collidersMove || n.movers + n.rigid > 0;
     set(thawStage_phase, any && (heated || moved), any ? thawReason_nothingChanged : thawReason_noParticles);
 
-    set(thawStage_control, n.control && any && (n.movers > 0 || n.ledBefore || (n.cools && heated)),
+    set(thawStage_control, n.control && (n.ledBefore || (any && (n.movers > 0 || (n.cools && heated)))),
         !any         ? thawReason_noParticles
         : !n.control ? thawReason_noControl
                      : thawReason_nothingMoves);

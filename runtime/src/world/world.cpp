@@ -680,6 +680,7 @@ template <class F> int World::removeParticles(F&& remove, double& mass, double& 
     particles.pad();
     rigid_.gather(particles);
     lookForHold();
+    led_ = true; // who obeys what is another
     return gone;
 }
 

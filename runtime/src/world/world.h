@@ -169,7 +169,7 @@ private:
     static constexpr uint32_t kRelabelInterval = 8;
 
     bool listsStale_ = true;
-    bool led_ = false;          // something moved when control last ran
+    bool led_ = false;          // something moved when control last ran, or is gone since
     bool toldApart_ = false;    // some collider is: particles know what they hang on
     bool anchorsFresh_ = false; // some came to be since the anchors were found
     float heldSpeed_ = 0;       // m/s, of the fastest held particle in this sub-step
