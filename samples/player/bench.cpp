@@ -3,6 +3,7 @@
 #include "bench_control.h"
 #include "bench_levels.h"
 #include "bench_registry.h"
+#include "bench_surface.h"
 #include "busy.h"
 #include "run.h"
 
@@ -126,6 +127,7 @@ void addBench(CLI::App& app, int& exitCode) {
 
     addBenchLevels(*bench, exitCode);
     addBenchControl(*bench, exitCode);
+    addBenchSurface(*bench, exitCode);
     addBenchBudget(*bench, exitCode);
     std::vector<BenchEntry> entries = benchEntries();
     std::sort(entries.begin(), entries.end(),

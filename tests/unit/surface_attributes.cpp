@@ -55,8 +55,8 @@ TEST_CASE("surface: temperature, liquid fraction and material follow the particl
 TEST_CASE("surface: one hot particle colours its own drop only") {
     Mesher mesher;
     Wax wax;
-    wax.add({0, 0, 0}, wax.spacing, 280, 0.25f, 1);
-    wax.add({0.02f, 0, 0}, wax.spacing, 400, 1, 3);
+    wax.add({0, 0, 0}, wax.spacing, 280, 0.25f, 1, 7);
+    wax.add({0.02f, 0, 0}, wax.spacing, 400, 1, 3, 500);
     Surface& s = mesher(wax);
     REQUIRE(factsOf(s).components == 2);
     for (size_t v = 0; v < s.positions.size(); ++v) {
@@ -65,5 +65,6 @@ TEST_CASE("surface: one hot particle colours its own drop only") {
         CHECK(std::fabs(s.liquidFractions[v] - (hot ? 1.0f : 0.25f)) < 1e-5f);
         CHECK(s.liquidFractions[v] <= 1);
         CHECK(s.materials[v] == (hot ? 3 : 1));
+        CHECK(s.bodies[v] == (hot ? 500 : 7));
     }
 }

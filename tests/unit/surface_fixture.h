@@ -29,13 +29,15 @@ struct Wax {
     float spacing = 0.002f;
     std::vector<thaw::Vec4> positions;
     std::vector<float> temperatures, liquidFractions;
-    std::vector<uint8_t> materials, flags;
+    std::vector<uint8_t> materials;
+    std::vector<uint16_t> bodies;
     double volume = 0;
 
-    void add(thaw::Vec3 p, float ownSpacing, float temperature = 300, float liquid = 0, uint8_t material = 0) {
+    void add(thaw::Vec3 p, float ownSpacing, float temperature = 300, float liquid = 0, uint8_t material = 0,
+             uint16_t body = 0) {
         positions.push_back({p.x, p.y, p.z, 2.2f * ownSpacing});
         temperatures.push_back(temperature), liquidFractions.push_back(liquid);
-        materials.push_back(material), flags.push_back(0);
+        materials.push_back(material), bodies.push_back(body);
         volume += double(ownSpacing) * ownSpacing * ownSpacing;
     }
     void add(thaw::Vec3 p) { add(p, spacing); }
@@ -60,7 +62,7 @@ struct Wax {
     }
     thaw::SurfaceInput input() const {
         return {int(positions.size()), positions.data(), temperatures.data(), liquidFractions.data(), materials.data(),
-                flags.data(),          spacing};
+                bodies.data(),         spacing};
     }
 };
 

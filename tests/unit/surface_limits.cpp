@@ -17,7 +17,7 @@ template <class T> bool sameBits(const Array<T>& a, const Array<T>& b) {
 bool sameBits(const Surface& a, const Surface& b) {
     return sameBits(a.positions, b.positions) && sameBits(a.normals, b.normals) &&
            sameBits(a.temperatures, b.temperatures) && sameBits(a.liquidFractions, b.liquidFractions) &&
-           sameBits(a.materials, b.materials) && sameBits(a.indices, b.indices);
+           sameBits(a.materials, b.materials) && sameBits(a.bodies, b.bodies) && sameBits(a.indices, b.indices);
 }
 
 // A disordered lump with strays and two materials.
@@ -68,10 +68,47 @@ TEST_CASE("surface: the second extraction allocates nothing") {
         mesher(wax);
         size_t calls = mesher.allocator.calls(), bytes = mesher.allocator.bytes();
         CHECK(calls > 0);
-        for (int k = 0; k < 3; ++k) mesher(wax);
+        for (int k = 0; k < 3; ++k) ++wax.temperatures[0], mesher(wax);
+        CHECK(mesher.surface.made() == 4);
         CHECK(mesher.allocator.calls() == calls);
         CHECK(mesher.allocator.bytes() == bytes);
     }
+}
+
+TEST_CASE("surface: what has not changed is not made again, what has is") {
+    Wax wax = lump();
+    Mesher mesher;
+    mesher(wax);
+    CHECK(mesher.surface.made() == 1);
+    const auto again = [&](float cell = 0.75f, int smoothing = 6) {
+        const int before = mesher.surface.made();
+        mesher(wax, cell, smoothing);
+        Mesher fresh;
+        CHECK(sameBits(mesher.surface, fresh(wax, cell, smoothing)));
+        return mesher.surface.made() - before;
+    };
+    CHECK(again() == 0);
+    const size_t last = wax.positions.size() - 1;
+    wax.positions[last].y += 1e-7f;
+    CHECK(again() == 1);
+    wax.temperatures[last] += 1;
+    CHECK(again() == 1);
+    wax.liquidFractions[0] = 0.5f;
+    CHECK(again() == 1);
+    wax.materials[last] = 2;
+    CHECK(again() == 1);
+    wax.bodies[0] = 9;
+    CHECK(again() == 1);
+    CHECK(again(1) == 1);
+    CHECK(again(1, 3) == 1);
+    CHECK(again(1, 3) == 0);
+    wax.add({1, 1, 1});
+    CHECK(again(1, 3) == 1);
+    wax.spacing *= 1.1f;
+    CHECK(again(1, 3) == 1);
+    wax = {};
+    CHECK(again(1, 3) == 1);
+    CHECK(again(1, 3) == 0);
 }
 
 TEST_CASE("surface: no particle, one, two, many in one place") {

@@ -701,9 +701,11 @@ typedef struct thawSurfaceView {
     const float* temperatures;    /* K */
     const float* liquidFractions; /* 0..1 */
     const uint8_t* materials;     /* index1 - 1 of the nearest particle's material */
+    const uint16_t* bodies;       /* index1 - 1 of its thawBodyId */
     const uint32_t* indices;      /* three per triangle, counter-clockwise from outside */
 } thawSurfaceView;
-/* Makes the mesh of everything that is in the world. Watertight; empty when there are no particles. */
+/* Makes the mesh of everything that is in the world. Watertight; empty when there are no particles. As long as nothing
+ * has changed it is the same mesh and costs next to nothing. */
 THAW_API thawResult thawWorld_ExtractSurface(thawWorld* world, const thawSurfaceDef* def, thawSurfaceView* out);
 
 typedef struct thawLedger {

@@ -15,8 +15,8 @@ struct SurfaceInput {
     const float* temperatures = nullptr; // K
     const float* liquidFractions = nullptr;
     const uint8_t* materials = nullptr;
-    const uint8_t* flags = nullptr; // thawParticleFlags
-    float spacing = 0;              // m, of level 0
+    const uint16_t* bodies = nullptr;
+    float spacing = 0; // m, of level 0
 };
 
 // How much of the space around a node is wax, and the wax's properties there, on 8^3 blocks of nodes wherever a

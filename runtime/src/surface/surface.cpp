@@ -5,6 +5,7 @@
 #include "surface/cubes.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace thaw {
 namespace {
@@ -69,24 +70,51 @@ template <class F> void forCells(const float* fill, F&& f) {
 
 Surface::Surface(Allocator& allocator)
     : positions(allocator), normals(allocator), temperatures(allocator), liquidFractions(allocator),
-      materials(allocator), indices(allocator), field_(allocator), smoother_(allocator), meshes_(allocator),
-      edgeVertices_(allocator), mobility_(allocator) {}
+      materials(allocator), bodies(allocator), indices(allocator), field_(allocator), smoother_(allocator),
+      meshes_(allocator), edgeVertices_(allocator), last_(allocator), mobility_(allocator) {}
 
 void Surface::clear() {
     positions.clear(), normals.clear(), temperatures.clear(), liquidFractions.clear(), materials.clear(),
-        indices.clear();
+        bodies.clear(), indices.clear();
 }
 
 void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, Tasks& tasks) {
+    if (same(input, cellSize, smoothing)) return;
     try {
+        last_.smoothing = -1;
         makeMesh(input, cellSize, tasks);
         smoother_.connect(positions.size(), indices);
         smoother_.smooth(positions, mobility_, smoothing, tasks);
         smoother_.normals(positions, normals, kNormalPasses, tasks);
+        remember(input, cellSize, smoothing);
+        ++made_;
     } catch (...) {
         clear();
         throw;
     }
+}
+
+bool Surface::same(const SurfaceInput& input, float cellSize, int smoothing) const {
+    const size_t n = size_t(std::max(input.count, 0));
+    const auto equal = [n](const auto& kept, const auto* given) {
+        return n == 0 || std::memcmp(kept.data(), given, n * sizeof *given) == 0;
+    };
+    return last_.smoothing == smoothing && last_.cellSize == cellSize && last_.spacing == input.spacing &&
+           last_.position.size() == n && equal(last_.position, input.positions) &&
+           equal(last_.temperature, input.temperatures) && equal(last_.liquidFraction, input.liquidFractions) &&
+           equal(last_.material, input.materials) && equal(last_.body, input.bodies);
+}
+
+void Surface::remember(const SurfaceInput& input, float cellSize, int smoothing) {
+    const size_t n = size_t(std::max(input.count, 0));
+    const auto keep = [n](auto& to, const auto* from) {
+        to.resizeRaw(n);
+        if (n > 0) std::memcpy(to.data(), from, n * sizeof *from);
+    };
+    keep(last_.position, input.positions), keep(last_.temperature, input.temperatures);
+    keep(last_.liquidFraction, input.liquidFractions), keep(last_.material, input.materials);
+    keep(last_.body, input.bodies);
+    last_.spacing = input.spacing, last_.cellSize = cellSize, last_.smoothing = smoothing;
 }
 
 void Surface::makeMesh(const SurfaceInput& input, float cellSize, Tasks& tasks) {
@@ -106,7 +134,7 @@ void Surface::makeMesh(const SurfaceInput& input, float cellSize, Tasks& tasks) 
     }
     temperatures.resizeRaw(vertexSum);
     liquidFractions.resizeRaw(vertexSum);
-    materials.resizeRaw(vertexSum);
+    materials.resizeRaw(vertexSum), bodies.resizeRaw(vertexSum);
     mobility_.resizeRaw(vertexSum);
     positions.resizeRaw(vertexSum);
     indices.resizeRaw(indexSum);
@@ -142,16 +170,18 @@ void Surface::emit(int block, const SurfaceInput& input) {
 
     const int32_t* members = field_.members(place);
     int memberCount = place.end - place.begin;
-    bool oneMaterial = true;
-    for (int k = 1; k < memberCount; ++k) oneMaterial &= input.materials[members[k]] == input.materials[members[0]];
-    auto nearestMaterial = [&](Vec3 p) {
+    bool oneOrigin = true;
+    for (int k = 1; k < memberCount; ++k)
+        oneOrigin &= input.materials[members[k]] == input.materials[members[0]] &&
+                     input.bodies[members[k]] == input.bodies[members[0]];
+    auto nearest = [&](Vec3 p) {
         float best = INFINITY;
-        uint8_t material = 0;
+        int32_t at = members[0];
         for (int k = 0; k < memberCount; ++k) {
             Vec3 d = input.positions[members[k]].xyz() - p;
-            if (float d2 = dot(d, d); d2 < best) best = d2, material = input.materials[members[k]];
+            if (float d2 = dot(d, d); d2 < best) best = d2, at = members[k];
         }
-        return material;
+        return at;
     };
 
     uint32_t v = mesh.vertexBegin;
@@ -169,7 +199,8 @@ void Surface::emit(int block, const SurfaceInput& input) {
         temperatures[v] = mean(temperature);
         liquidFractions[v] = std::clamp(mean(liquid), 0.0f, 1.0f);
         mobility_[v] = SurfaceField::mobility(mean(company));
-        materials[v] = oneMaterial ? input.materials[members[0]] : nearestMaterial(positions[v]);
+        const int32_t origin = oneOrigin ? members[0] : nearest(positions[v]);
+        materials[v] = input.materials[origin], bodies[v] = input.bodies[origin];
         ++v;
     });
 

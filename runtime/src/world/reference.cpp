@@ -98,11 +98,11 @@ void World::forget(size_t slot) {
 void World::expandForSurface() {
     Expanded& e = expanded_;
     const auto clear = [](auto&... arrays) { (arrays.clear(), ...); };
-    clear(e.position, e.temperature, e.liquidFraction, e.material, e.flags);
+    clear(e.position, e.temperature, e.liquidFraction, e.material, e.body);
     const auto add = [&](size_t k, Vec3 x, float support) {
         e.position.push({x.x, x.y, x.z, support}), e.temperature.push(particles.temperature[k]);
         e.liquidFraction.push(particles.liquidFraction[k]);
-        e.material.push(particles.material[k]), e.flags.push(particles.flags[k]);
+        e.material.push(particles.material[k]), e.body.push(particles.body[k]);
     };
     const float finest = supportOf(def.particleSpacing, 0);
     for (size_t k = 0; k < static_cast<size_t>(particles.count); ++k) {

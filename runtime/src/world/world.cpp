@@ -921,11 +921,11 @@ void World::extractSurface(const thawSurfaceDef& d, thawSurfaceView& out) {
         expandForSurface();
         const Expanded& e = expanded_;
         surface_.extract({static_cast<int>(e.position.size()), e.position.data(), e.temperature.data(),
-                          e.liquidFraction.data(), e.material.data(), e.flags.data(), def.particleSpacing},
+                          e.liquidFraction.data(), e.material.data(), e.body.data(), def.particleSpacing},
                          d.cellSize, d.smoothing, tasks);
     } else {
         surface_.extract({particles.count, particles.position.data(), particles.temperature.data(),
-                          particles.liquidFraction.data(), particles.material.data(), particles.flags.data(),
+                          particles.liquidFraction.data(), particles.material.data(), particles.body.data(),
                           def.particleSpacing},
                          d.cellSize, d.smoothing, tasks);
     }
@@ -936,6 +936,7 @@ void World::extractSurface(const thawSurfaceDef& d, thawSurfaceView& out) {
            surface_.temperatures.data(),
            surface_.liquidFractions.data(),
            surface_.materials.data(),
+           surface_.bodies.data(),
            surface_.indices.data()};
 }
 

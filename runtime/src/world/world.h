@@ -188,10 +188,11 @@ private:
     bool levelsChanged_ = false; // in the last step
     bool full_ = false;          // and some could not split for want of room
     struct Expanded {            // what the surface is made of: the finest points in place of what is coarse
-        explicit Expanded(Allocator& a) : position(a), temperature(a), liquidFraction(a), material(a), flags(a) {}
+        explicit Expanded(Allocator& a) : position(a), temperature(a), liquidFraction(a), material(a), body(a) {}
         Array<Vec4> position;
         Array<float> temperature, liquidFraction;
-        Array<uint8_t> material, flags;
+        Array<uint8_t> material;
+        Array<uint16_t> body;
     } expanded_;
 
     // Ledger and counters of the last measurement.

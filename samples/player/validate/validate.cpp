@@ -30,7 +30,8 @@ std::vector<Suite> suites() {
         {"heat",
          "conduction, contact, phase change, radiation and loss",
          {conductionCases(), stefanCases(), radiationCases(), surfaceCases(), heatLevelCases(), undercoolingCases()}},
-        {"control", "where paths and shapes take the melt", {pathCases(), shapeCases()}}};
+        {"control", "where paths and shapes take the melt", {pathCases(), shapeCases()}},
+        {"surface", "the mesh of what melts", {meshCases()}}};
 }
 
 struct Options {

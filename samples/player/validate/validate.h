@@ -60,5 +60,6 @@ CaseList surfaceCases();
 CaseList undercoolingCases();
 CaseList pathCases();
 CaseList shapeCases();
+CaseList meshCases();
 
 } // namespace thaw::player

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "bench_surface.h"
+#include "report.h"
+#include "run.h"
+#include "validate/lab.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+namespace thaw::player {
+namespace {
+
+struct Options {
+    int threads = 1, frames = 60;
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0 : values[values.size() / 2];
+}
+
+// A block of 16,000 particles on a floor, of which a share is liquid and flows.
+int benchSurface(const Options& o) {
+    checkRange("--threads", o.threads, 1, 64);
+    checkRange("--frames", o.frames, 1, 10000);
+    std::cout << "particles,moving,threads,vertices,triangles,ms_p50,ms_best,ms_worst\n";
+    for (const double share : {0.0, 0.1, 1.0}) {
+        constexpr float kSpacing = 0.002f;
+        Lab lab(kSpacing, 20000, {0, -9.81f, 0}, 0, o.threads);
+        const thawMaterialId m = lab.material(Lab::plain(1000, 1));
+        lab.floor();
+        const float side = 0.05f, height = 0.0512f, held = height * float(1 - share);
+        if (held > 0) lab.box(m, {-0.5f * side, 0, -0.5f * side}, {0.5f * side, held, 0.5f * side}, Lab::kSolid);
+        if (share > 0) lab.box(m, {-0.5f * side, held, -0.5f * side}, {0.5f * side, height, 0.5f * side}, Lab::kLiquid);
+        thawSurfaceDef d;
+        thawInitSurfaceDef(&d);
+        thawSurfaceView view;
+        std::vector<double> times;
+        lab.step(10);
+        thawWorld_ExtractSurface(lab.world(), &d, &view); // takes its memory
+        for (int f = 0; f < o.frames; ++f) {
+            lab.step(1);
+            const auto start = std::chrono::steady_clock::now();
+            if (thawWorld_ExtractSurface(lab.world(), &d, &view) != thawResult_ok) throw RunError("no surface");
+            times.push_back(
+                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+        }
+        const thawCounters c = lab.counters();
+        std::cout << formatted("%d,%d,%d,%d,%d,%.3f,%.3f,%.3f\n", c.particles, c.moving, o.threads, view.vertexCount,
+                               view.triangleCount, median(times), *std::min_element(times.begin(), times.end()),
+                               *std::max_element(times.begin(), times.end()));
+    }
+    return kExitOk;
+}
+
+} // namespace
+
+void addBenchSurface(CLI::App& bench, int& exitCode) {
+    CLI::App* command = bench.add_subcommand(
+        "surface", "One CSV line a case: extracting the mesh of 16,000 particles, of which none, a "
+                   "tenth, all move");
+    auto o = std::make_shared<Options>();
+    command->add_option("--threads", o->threads, "Threads that take part, 1 to 64")->capture_default_str();
+    command->add_option("--frames", o->frames, "Frames of each case")->capture_default_str();
+    command->callback([=, &exitCode] { exitCode = benchSurface(*o); });
+}
+
+} // namespace thaw::player
