@@ -250,3 +250,25 @@ TEST_CASE("control: a path's start takes up more heat") {
     CHECK(melted[1] > 1.5f * melted[0]);
     CHECK(melted[0] > 0.005f);
 }
+
+TEST_CASE("paths: melt that was at the end of one follows another in its place") {
+    WorldFixture f;
+    pool(f);
+    const std::vector<thawVec3> there{{-0.02f, 0.004f, 0}, {0.01f, 0.004f, 0}},
+        back{{0.08f, 0.004f, 0}, {-0.05f, 0.004f, 0}};
+    thawPathDef d = pathDef(there);
+    d.radius = 0.02f, d.speed = 0.1f;
+    const thawPathId first = addPath(f, d);
+    f.step(240);
+    thawPathState s;
+    REQUIRE(thawPath_GetState(f.world, first, &s) == thawResult_ok);
+    const float arrived = s.arrived;
+    REQUIRE(arrived > 0.5f * static_cast<float>(f.ledger().massNow));
+    REQUIRE(thawDestroyPath(f.world, first) == thawResult_ok);
+    d.points = back.data(), d.radius = 0.05f;
+    const thawPathId second = addPath(f, d);
+    REQUIRE(second.index1 == first.index1);
+    f.step(8);
+    REQUIRE(thawPath_GetState(f.world, second, &s) == thawResult_ok);
+    CHECK(s.captured == doctest::Approx(f.ledger().massNow).epsilon(1e-3).scale(0));
+}

@@ -142,3 +142,106 @@ TEST_CASE("shapes: what has set beside one does not keep it from setting") {
     CHECK(s.set == s.mass);
     CHECK(std::isfinite(s.filledAfter));
 }
+
+TEST_CASE("shapes: setting one to what it is changes nothing, speed and strength start nothing anew") {
+    for (const bool mesh : {false, true}) {
+        CAPTURE(mesh);
+        WorldFixture set, left;
+        Drawing disc;
+        disc.ellipse(0.01f, 0, 0.03f, 0.03f);
+        const Ball ball(0.0125f);
+        thawShapeDef d = mesh ? ball.def() : disc.def();
+        if (mesh) d.position = {0, 0.035f, 0.01f}, d.reach = 0.05f, d.speed = 0.2f;
+        pool(set), pool(left);
+        const thawShapeId id = addShape(set, d);
+        addShape(left, d);
+        // The flow's cells are looked at anew, some in each step.
+        thawColliderId sphere[2] = {addSmallSphere(set, {0.03f, 0.02f, 0}), addSmallSphere(left, {0.03f, 0.02f, 0})};
+        for (int i = 0; i < 120; ++i) {
+            if (i == 60) {
+                const thawVec3 to{0.03f, 0.004f, 0};
+                REQUIRE(thawCollider_Teleport(set.world, sphere[0], to, {0, 0, 0, 1}) == thawResult_ok);
+                REQUIRE(thawCollider_Teleport(left.world, sphere[1], to, {0, 0, 0, 1}) == thawResult_ok);
+            }
+            REQUIRE(thawShape_Set(set.world, id, &d) == thawResult_ok);
+            set.step(), left.step();
+            REQUIRE(thawWorld_GetStateHash(set.world) == thawWorld_GetStateHash(left.world));
+        }
+        for (int i = 0; i < 400; ++i) {
+            d.speed = 0.2f - 1e-4f * static_cast<float>(i), d.strength = i % 3 ? 0.99f : 1;
+            REQUIRE(thawShape_Set(set.world, id, &d) == thawResult_ok);
+            set.step();
+        }
+        const thawShapeState s = stateOf(set, id);
+        CHECK(s.set > 0.98f * s.inside);
+        CHECK(s.fill > 0.9f);
+    }
+}
+
+TEST_CASE("shapes: another place or reach lets no more in than there is room for") {
+    for (const bool moves : {false, true}) {
+        WorldFixture f;
+        pool(f);
+        const Ball ball(0.0115f); // of the melt half
+        thawShapeDef d = ball.def();
+        d.position = {0, 0.03f, 0}, d.reach = 0.05f, d.sets = false;
+        const thawShapeId id = addShape(f, d);
+        float most = 0;
+        for (int i = 0; i < 120; ++i) {
+            (moves ? d.position.x : d.reach) += 1e-4f;
+            REQUIRE(thawShape_Set(f.world, id, &d) == thawResult_ok);
+            f.step();
+            most = std::max(most, stateOf(f, id).mass);
+        }
+        const float room = stateOf(f, id).size * 800;
+        CHECK(most < 1.05f * room);
+        CHECK(most > 0.8f * room);
+    }
+}
+
+TEST_CASE("shapes: one that is on again cools from what it finds") {
+    WorldFixture f;
+    f.def.thermalTimeScale = 0;
+    f.create();
+    thawMaterialDef m;
+    thawInitMaterialDef(&m, thawMaterial_wax);
+    m.viscosityLiquid = 0.5f;
+    f.addMaterial(m);
+    f.addFloor();
+    const thawBodyId body = f.addBox({-0.016f, 0, -0.016f}, {0.016f, 0.012f, 0.016f}, 345);
+    Drawing disc;
+    disc.ellipse(0, 0, 0.025f, 0.025f);
+    thawShapeDef d = disc.def();
+    d.setTime = 20, d.thickness = 0.005f;
+    const thawShapeId id = addShape(f, d);
+    f.step(300);
+    const double first = f.ledger().controlHeat;
+    REQUIRE(first > 0);
+    d.enabled = false;
+    REQUIRE(thawShape_Set(f.world, id, &d) == thawResult_ok);
+    f.step(10);
+    CHECK(f.ledger().controlHeat == first);
+    const thawBrush all{{0, 0, 0}, 1, 0};
+    REQUIRE(thawBody_PaintTemperature(f.world, body, &all, 400, nullptr) == thawResult_ok);
+    d.enabled = true;
+    REQUIRE(thawShape_Set(f.world, id, &d) == thawResult_ok);
+    double most = 0, all20 = 0;
+    for (int i = 0; i < 20; ++i) {
+        const double before = f.ledger().controlHeat;
+        f.step();
+        most = std::max(most, f.ledger().controlHeat - before), all20 = f.ledger().controlHeat - first;
+    }
+    CHECK(all20 > 0);
+    CHECK(most < 0.1 * all20);
+}
+
+TEST_CASE("shapes: the state hash knows which side of a drawing is up") {
+    WorldFixture up, down;
+    pool(up), pool(down);
+    Drawing disc;
+    disc.ellipse(0, 0, 0.02f, 0.02f);
+    REQUIRE(thawWorld_SetGravity(down.world, {0, 9.81f, 0}) == thawResult_ok);
+    addShape(up, disc.def()), addShape(down, disc.def());
+    REQUIRE(thawWorld_SetGravity(down.world, up.def.gravity) == thawResult_ok);
+    CHECK(thawWorld_GetStateHash(up.world) != thawWorld_GetStateHash(down.world));
+}

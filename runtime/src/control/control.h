@@ -28,8 +28,8 @@ public:
     void forgetPath(Particles& particles, size_t slot) { paths_.forget(particles, slot); }
     // Looks which cells of a shape lie in colliders: once when it is new, a share of them in each step after.
     void findWalls(const ControlFrame& f, size_t shape) { shapes_.findWalls(f, shape, 0, 1); }
-    // How much room a shape has that nothing obeys yet.
-    void empty(const ControlFrame& f, size_t shape) { shapes_.empty(f, shape); }
+    // How much room a shape has that is new, or another.
+    void refill(const ControlFrame& f, size_t shape) { shapes_.refill(f, shape); }
     void forgetShape(Particles& particles, size_t slot) { shapes_.forget(particles, slot); }
     uint64_t hash(uint64_t h) const { return shapes_.hash(paths_.hash(h)); }
 

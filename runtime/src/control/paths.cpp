@@ -50,8 +50,10 @@ bool Paths::any() const {
 }
 
 void Paths::forget(Particles& p, size_t slot) {
-    for (int i = 0; i < p.count; ++i)
-        if (p.follows[static_cast<size_t>(i)] == slot + 1) p.follows[static_cast<size_t>(i)] = 0;
+    for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) {
+        if (p.follows[i] == slot + 1) p.follows[i] = 0;
+        if (p.follows[i] == 0 && p.along[i] == -static_cast<float>(slot + 1)) p.along[i] = 0;
+    }
 }
 
 // Of the paths of the highest priority within their reach: the nearest; where several go the same way, which is a fork

@@ -63,6 +63,7 @@ bool Region::make(const Vec3* points, const int32_t* sizes, int contours, Vec3 n
         return false;
     }
     n_ = normalizeOr(n, {0, 0, 1});
+    hash_ = hashOf(hash_, n_); // which side is the upper one depends on the gravity of now
     u_ = normalizeOr(cross(std::abs(n_.x) < 0.7f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n_), {1, 0, 0});
     v_ = cross(n_, u_);
     std::vector<Flat> outline;

@@ -54,7 +54,7 @@ void Shapes::forget(Particles& p, size_t slot) {
     for (int i = 0; i < p.count; ++i) {
         const size_t k = static_cast<size_t>(i);
         if (shapeOf(p.follows[k]) != slot + 1) continue;
-        p.follows[k] = 0;
+        p.follows[k] = 0, p.along[k] = 0;
     }
 }
 
@@ -176,27 +176,16 @@ void Shapes::findWalls(const ControlFrame& f, size_t slot, size_t first, size_t 
     }
 }
 
-void Shapes::empty(const ControlFrame& f, size_t slot) {
-    Shape& s = shapes[slot];
-    s.flow.clear();
-    s.flow.solve(OwnSpace(s.collider, f.colliders).turnInto(normalizeOr(f.gravity, {})), s.thickness, f.spacing);
-}
-
-void Shapes::fill(const ControlFrame& f, size_t slot) {
+void Shapes::refill(const ControlFrame& f, size_t slot) {
     const Particles& p = f.particles;
     Shape& s = shapes[slot];
     const OwnSpace space(s.collider, f.colliders);
-    s.distance = s.spilled > 0 ? s.distance / s.spilled : 0;
-    if (s.setting && s.set == s.mass && s.asleep == s.mass) return;
-    s.asleep = s.set == s.mass ? s.mass : -1;
-    if (s.walls != f.wallVersion) s.walls = f.wallVersion, s.wallsLeft = kBlockTurns;
-    if (s.wallsLeft > 0) --s.wallsLeft, findWalls(f, slot, f.step % kBlockTurns, kBlockTurns);
     s.flow.clear();
     Box around = s.region.bounds();
     const float margin = s.reach + s.depth;
     around.lower -= Vec3{margin, margin, margin}, around.upper += Vec3{margin, margin, margin};
     for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) {
-        const bool fixed = solid(p, i), obeys = near_[i].shape == slot + 1;
+        const bool fixed = solid(p, i), obeys = shapeOf(p.follows[i]) == slot + 1;
         if (!fixed && !obeys) continue;
         const Vec3 at = s.region.into(space.into(p.position[i].xyz()));
         const float volume = p.velocity[i].w / f.materials[p.material[i]].def.density;
@@ -210,6 +199,16 @@ void Shapes::fill(const ControlFrame& f, size_t slot) {
     }
     const Vec3 down = space.turnInto(normalizeOr(f.gravity, {}));
     s.flow.solve(down, s.thickness, f.spacing);
+}
+
+void Shapes::fill(const ControlFrame& f, size_t slot) {
+    Shape& s = shapes[slot];
+    s.distance = s.spilled > 0 ? s.distance / s.spilled : 0;
+    if (s.setting && s.set == s.mass && s.asleep == s.mass) return;
+    s.asleep = s.set == s.mass ? s.mass : -1;
+    if (s.walls != f.wallVersion) s.walls = f.wallVersion, s.wallsLeft = kBlockTurns;
+    if (s.wallsLeft > 0) --s.wallsLeft, findWalls(f, slot, f.step % kBlockTurns, kBlockTurns);
+    refill(f, slot);
     // Without a thickness it takes all that comes, and is full when hardly any more does.
     s.coming += (1 - static_cast<double>(detExp(-f.dt / kComing))) * (s.fresh / static_cast<double>(f.dt) - s.coming);
     s.fresh = 0;

@@ -17,6 +17,7 @@ struct Path;
 struct Shape {
     bool alive = false, enabled = true, sets = true;
     Region region;
+    uint64_t form = 0; // of what the host made it from
     FillFlow flow;
     uint32_t collider = 0; // index + 1 of the one it moves with; 0: it stands still
     float reach = 0, depth = 0, thickness = 0, strength = 0, speed = 0, setFill = 1, setTime = 1;
@@ -59,8 +60,8 @@ public:
     double cool(const ControlFrame& f);
     // Which of a shape's cells lie in colliders: every `stride`th from `first` on.
     void findWalls(const ControlFrame& f, size_t slot, size_t first, size_t stride);
-    // How much room one has that nothing obeys yet.
-    void empty(const ControlFrame& f, size_t slot);
+    // What there is in one, and how much room is left.
+    void refill(const ControlFrame& f, size_t slot);
     // Nobody obeys this one any more.
     void forget(Particles& particles, size_t slot);
     uint64_t hash(uint64_t h) const;

@@ -1,10 +1,38 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 // What the world does with the paths and shapes of its host.
-#include "motion/carry.h"
 #include "world/world.h"
 
+#include "base/math.h"
+#include "motion/carry.h"
+
+#include <algorithm>
+#include <bit>
+
 namespace thaw {
+namespace {
+
+// Of all that a shape's region is made from.
+uint64_t formOf(const thawShapeDef& d) {
+    uint64_t h = d.contourCount > 0 ? 1 : 2;
+    const auto put = [&](float v) { h = hashCombine(h, std::bit_cast<uint32_t>(v)); };
+    const auto place = [&](thawVec3 x) { put(x.x), put(x.y), put(x.z); };
+    if (d.contourCount > 0) {
+        place(d.normal);
+        for (int64_t c = 0, k = 0; c < d.contourCount; ++c) {
+            h = hashCombine(h, static_cast<uint64_t>(d.contourSizes[c]));
+            for (const int64_t end = k + d.contourSizes[c]; k < end; ++k) place(d.points[k]);
+        }
+        return h;
+    }
+    place(d.position), put(d.rotation.x), put(d.rotation.y), put(d.rotation.z), put(d.rotation.w), put(d.scale);
+    h = hashCombine(h, d.mesh.vertexCount);
+    for (size_t k = 0; k < 3 * d.mesh.vertexCount; ++k) put(d.mesh.vertices[k]);
+    for (size_t k = 0; k < 3 * d.mesh.triangleCount; ++k) h = hashCombine(h, d.mesh.indices[k]);
+    return h;
+}
+
+} // namespace
 
 ControlFrame World::controlFrame(float dt) {
     return {particles,
@@ -78,19 +106,8 @@ thawPathState World::pathState(uint32_t index) const {
             p.asked + p.boost};
 }
 
-thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t& index1) {
-    std::vector<Shape>& shapes = control_.shapes();
-    size_t slot = 0;
-    if (index1 > 0) {
-        slot = index1 - 1;
-    } else {
-        while (slot < shapes.size() && shapes[slot].alive) ++slot;
-        if (slot >= static_cast<size_t>(def.maxShapes)) {
-            message = "maxShapes: all " + std::to_string(def.maxShapes) + " shapes of the world are in use";
-            return thawResult_capacity;
-        }
-    }
-    Region region;
+// What a shape shall fill.
+thawResult World::makeRegion(const thawShapeDef& d, Region& region, std::string& message) {
     if (d.contourCount > 0) {
         std::vector<Vec3> points;
         int64_t count = 0;
@@ -108,6 +125,27 @@ thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t
         if (r != thawResult_ok) return r;
         if (!region.make(mesh, def.particleSpacing, tasks, message)) return thawResult_badMesh;
     }
+    return thawResult_ok;
+}
+
+thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t& index1) {
+    std::vector<Shape>& shapes = control_.shapes();
+    size_t slot = 0;
+    if (index1 > 0) {
+        slot = index1 - 1;
+    } else {
+        while (slot < shapes.size() && shapes[slot].alive) ++slot;
+        if (slot >= static_cast<size_t>(def.maxShapes)) {
+            message = "maxShapes: all " + std::to_string(def.maxShapes) + " shapes of the world are in use";
+            return thawResult_capacity;
+        }
+    }
+    const uint64_t form = formOf(d);
+    const bool same = index1 > 0 && shapes[slot].form == form && shapes[slot].collider == d.collider.index1;
+    Region made;
+    if (!same)
+        if (const thawResult r = makeRegion(d, made, message); r != thawResult_ok) return r;
+    const Region& region = same ? shapes[slot].region : made;
     const Vec3 extent = region.bounds().upper - region.bounds().lower;
     const float half = 0.5f * std::max(extent.x, std::max(extent.y, region.flat() ? 0.0f : extent.z));
     const float reach = d.reach > 0 ? d.reach : half;
@@ -116,8 +154,8 @@ thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t
         shapes.resize(slot + 1), shapeSlots.resize(slot + 1), mouldOn_.resize(slot + 1);
     }
     Shape& s = shapes[slot];
-    const bool held = s.on() && s.setting && !s.region.flat();
-    if (index1 == 0 || s.region.hash() != region.hash() || s.reach != reach || s.collider != d.collider.index1) {
+    const bool sets = s.on() && s.setting, anew = !same || s.reach != reach;
+    if (anew) {
         FillFlow flow;
         flow.make(region, reach, def.particleSpacing);
         if (index1 == 0) {
@@ -125,17 +163,18 @@ thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t
             shapeSlots[slot].take();
             index1 = static_cast<uint32_t>(slot) + 1;
         }
-        s.flow = std::move(flow), s.region = std::move(region);
+        s.flow = std::move(flow);
+        if (!same) s.region = std::move(made), s.form = form;
         s.setting = false, s.filledAfter = -1;
     }
+    const bool otherRoom = anew || s.thickness != d.thickness;
     s.alive = true, s.enabled = d.enabled, s.sets = d.sets, s.collider = d.collider.index1;
     s.reach = reach, s.depth = d.depth > 0 ? d.depth : reach, s.thickness = d.thickness;
     s.strength = d.strength, s.speed = d.speed, s.setFill = d.setFill, s.setTime = d.setTime, s.priority = d.priority;
     s.setting &= s.sets && s.on();
-    control_.findWalls(controlFrame(0), slot);
-    s.walls = wallVersion_, s.wallsLeft = 0;
-    if (!(s.captured > 0)) control_.empty(controlFrame(0), slot);
-    if (held && !s.setting) unmould(slot);
+    if (anew) control_.findWalls(controlFrame(0), slot), s.walls = wallVersion_, s.wallsLeft = 0;
+    if (otherRoom) control_.refill(controlFrame(0), slot), led_ = true;
+    if (sets && !s.setting) unmould(slot);
     return thawResult_ok;
 }
 
@@ -147,12 +186,16 @@ void World::findMoulds() {
     }
 }
 
-// What a shape held in the air has lost its hold.
+// A shape cools no more what is in it, and holds none of it in the air.
 void World::unmould(size_t shape) {
-    for (size_t k = 0; k < static_cast<size_t>(particles.count); ++k)
-        if (shapeOf(particles.follows[k]) == shape + 1)
-            particles.flags[k] = static_cast<uint8_t>(particles.flags[k] & ~kMoulded);
-    lookForHold();
+    bool held = false;
+    for (size_t k = 0; k < static_cast<size_t>(particles.count); ++k) {
+        if (shapeOf(particles.follows[k]) != shape + 1) continue;
+        held |= particles.flags[k] & kMoulded;
+        particles.flags[k] = static_cast<uint8_t>(particles.flags[k] & ~kMoulded);
+        particles.along[k] = 0; // another time it starts from what it finds
+    }
+    if (held) lookForHold();
 }
 
 void World::removeShape(uint32_t index) {

@@ -131,6 +131,7 @@ private:
     ControlFrame controlFrame(float dt);
     void findMoulds();
     void unmould(size_t shape);
+    thawResult makeRegion(const thawShapeDef& def, Region& region, std::string& message);
     LevelFrame levelFrame(const thawWork& work, float dt);
     void splitUnder(uint32_t body, const thawBrush& brush);
     // Adds the points of a body to the reference, in the order of their groups. Returns where its origin is.
