@@ -235,6 +235,50 @@ TEST_CASE("shapes: one that is on again cools from what it finds") {
     CHECK(most < 0.1 * all20);
 }
 
+TEST_CASE("shapes: what a drawing lies on takes none of its room") {
+    for (const float thickness : {0.0f, 0.004f}) {
+        CAPTURE(thickness);
+        WorldFixture f;
+        f.def.thermalTimeScale = 0, f.def.maxParticles = 16384;
+        f.create();
+        thawMaterialDef m;
+        thawInitMaterialDef(&m, thawMaterial_wax);
+        m.viscosityLiquid = 0.5f, m.density = 800;
+        f.addMaterial(m);
+        f.addFloor(-0.016f);
+        f.addBox({-0.032f, -0.016f, -0.032f}, {0.032f, 0, 0.032f}, 290);
+        f.addBox({-0.012f, 0, -0.012f}, {0.012f, 0.012f, 0.012f}, 345);
+        Drawing disc;
+        disc.ellipse(0, 0, 0.02f, 0.02f);
+        thawShapeDef d = disc.def();
+        d.sets = false, d.thickness = thickness;
+        const thawShapeId id = addShape(f, d);
+        f.step(300);
+        const thawShapeState s = stateOf(f, id);
+        const float depth = thickness > 0 ? thickness : 0.024f * 0.024f * 0.012f / s.size;
+        CHECK(s.mass == doctest::Approx(static_cast<double>(s.size * depth * 800)).epsilon(0.1).scale(0));
+        CHECK(s.inside > 0.95f * s.mass);
+        CHECK(s.level == doctest::Approx(static_cast<double>(depth)).epsilon(0.1).scale(0));
+        CHECK(s.fill > 0.9f);
+    }
+}
+
+TEST_CASE("shapes: one that is thinner than a particle is filled as well") {
+    WorldFixture f;
+    pool(f);
+    Drawing strip;
+    strip.points = {{-0.03f, 0, 0.0003f}, {0.03f, 0, 0.0003f}, {0.03f, 0, 0.0008f}, {-0.03f, 0, 0.0008f}};
+    strip.sizes = {4};
+    thawShapeDef d = strip.def();
+    d.sets = false;
+    const thawShapeId id = addShape(f, d);
+    f.step(120);
+    const thawShapeState s = stateOf(f, id);
+    CHECK(s.size == doctest::Approx(0.06 * 0.0005).epsilon(0.02).scale(0));
+    CHECK(s.level == doctest::Approx(static_cast<double>(s.mass / 800 / s.size)).epsilon(0.02).scale(0));
+    CHECK(s.fill > 0.9f);
+}
+
 TEST_CASE("shapes: the state hash knows which side of a drawing is up") {
     WorldFixture up, down;
     pool(up), pool(down);

@@ -55,18 +55,29 @@ void FillFlow::make(const Region& region, float reach, float spacing) {
     conduct_.assign(n, 0), lack_.assign(n, 0), face_.assign(n, {}), velocity_.assign(n, {}), blocked_.assign(n, 0),
         layer_.assign(n, 0);
 
-    // Spread over cells as melt is.
+    // Spread over cells as melt is. Where the parts miss it, it is thinner than they are: then by how near it is.
     const float part = cell_ / kParts, volume = unit_ / (kParts * kParts * (flat_ ? 1 : kParts));
-    for (int z = 0; z < (flat_ ? 1 : kParts * nz_); ++z)
-        for (int y = 0; y < kParts * ny_; ++y)
-            for (int x = 0; x < kParts * nx_; ++x) {
-                const auto place = [&](float from, int k) {
-                    return from + (static_cast<float>(k) + 0.5f) * part - 0.5f * cell_;
-                };
-                const Vec3 p{place(origin_.x, x), place(origin_.y, y), flat_ ? 0 : place(origin_.z, z)};
-                Vec3 outward;
-                if (region.distance(p, outward) < 0) add(share_, p, volume, nullptr);
-            }
+    const auto spread = [&](float blur) {
+        for (int z = 0; z < (flat_ ? 1 : kParts * nz_); ++z)
+            for (int y = 0; y < kParts * ny_; ++y)
+                for (int x = 0; x < kParts * nx_; ++x) {
+                    const auto place = [&](float from, int k) {
+                        return from + (static_cast<float>(k) + 0.5f) * part - 0.5f * cell_;
+                    };
+                    const Vec3 p{place(origin_.x, x), place(origin_.y, y), flat_ ? 0 : place(origin_.z, z)};
+                    Vec3 outward;
+                    const float d = region.distance(p, outward);
+                    if (d < blur) add(share_, p, blur > 0 ? volume * std::min(1.0f, 1 - d / blur) : volume, nullptr);
+                }
+        double all = 0;
+        for (const float s : share_) all += static_cast<double>(s);
+        return static_cast<float>(all) * unit_;
+    };
+    if (spread(0) < 0.5f * region.size()) {
+        std::fill(share_.begin(), share_.end(), 0.0f);
+        if (const float all = spread(part); all > 0)
+            for (float& s : share_) s *= region.size() / all;
+    }
     findIslands();
 }
 

@@ -184,6 +184,8 @@ void Shapes::refill(const ControlFrame& f, size_t slot) {
     Box around = s.region.bounds();
     const float margin = s.reach + s.depth;
     around.lower -= Vec3{margin, margin, margin}, around.upper += Vec3{margin, margin, margin};
+    // What a drawing lies on takes none of its room.
+    if (s.region.flat()) around.lower.z = s.region.bounds().upper.z, around.upper.z = around.lower.z + s.depth;
     for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) {
         const bool fixed = solid(p, i), obeys = shapeOf(p.follows[i]) == slot + 1;
         if (!fixed && !obeys) continue;
