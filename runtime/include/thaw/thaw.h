@@ -497,8 +497,8 @@ THAW_API thawResult thawPath_GetState(const thawWorld* world, thawPathId id, tha
  * contours fit best and `depth` to both sides of it, and leaves the motion across the plane to gravity: a surface that
  * turns by more than about 60 degrees takes several shapes.
  *
- * Or a closed mesh: melt gathers in it from the bottom up, its weight carried, and what has set is held in the air as
- * long as the shape is on. What finds no room is let go. */
+ * Or a closed mesh: melt gathers in it from the bottom up, its weight carried, and what has set is held in the air, and
+ * goes where the collider goes, as long as the shape is on. What finds no room is let go. */
 typedef struct thawShapeDef {
     uint32_t structSize, cookie;
     const thawVec3* points;      /* m, of all contours one after the other, each within 1e5; at most 1000000 in all */
@@ -518,28 +518,31 @@ typedef struct thawShapeDef {
     float strength;          /* 0: nothing, 0.5: a hint, 1: a lock; range 0..1, default 1 */
     float speed;             /* m/s, at most, at which melt is led; range 1e-4..100, default 0.1 */
     bool sets;               /* cools what is in it when it is filled; default true */
-    float setFill;           /* 1, share of it that is covered, or filled, when that begins; range 0..1, default 0.9 */
-    float setTime;           /* s that it takes about; range 0..1e4, default 2 */
+    float setFill;    /* 1, share of it that is covered, or filled, when that begins; no more than the rest to 1 of what
+                         obeys is outside and melts then, and without a `thickness` hardly any more comes; range 0..1,
+                         default 0.9 */
+    float setTime;    /* s that it takes about; range 0..1e4, default 2 */
     int32_t priority; /* where shapes overlap, melt that obeys none yet takes the highest. Before a path of the same
                          priority inside, after it around; default 0 */
 } thawShapeDef;
 THAW_API void thawInitShapeDef(thawShapeDef* def);
 THAW_API thawResult thawCreateShape(thawWorld* world, const thawShapeDef* def, thawShapeId* outId);
-/* Replaces every property; takes effect in the next step. Another form, reach or collider starts to fill anew. */
+/* Replaces every property; takes effect in the next step. Another form, reach or collider starts to fill anew, all else
+ * costs little and may be set before every step. */
 THAW_API thawResult thawShape_Set(thawWorld* world, thawShapeId id, const thawShapeDef* def);
 /* What obeyed it flows freely; what has set stays, and falls where nothing else holds it. */
 THAW_API thawResult thawDestroyShape(thawWorld* world, thawShapeId id);
 
 typedef struct thawShapeState {
     float size;            /* m^2 inside of contours, m^3 inside of a mesh */
-    float mass;            /* kg that obey it, of which: */
+    float mass;            /* kg that obey it, 0 while it is off, of which: */
     float inside, spilled; /* kg inside; more than half a spacing outside */
     float set;             /* kg that have set */
     float captured, lost;  /* kg, ever: that came to obey it; that went out of its reach, or found no room */
     float meanDistance;    /* m from it, of what is spilled */
     float fill;            /* 1, share of it that is covered, or filled */
     float level;           /* m, of contours: how deep all that obeys it stands, or would */
-    float filledAfter;     /* s from the first capture until setFill was reached; NaN: not yet */
+    float filledAfter;     /* s from the first capture until it was filled (setFill); NaN: not yet */
 } thawShapeState;
 THAW_API thawResult thawShape_GetState(const thawWorld* world, thawShapeId id, thawShapeState* out);
 

@@ -175,6 +175,7 @@ thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t
     if (anew) control_.findWalls(controlFrame(0), slot), s.walls = wallVersion_, s.wallsLeft = 0;
     if (otherRoom) control_.refill(controlFrame(0), slot), led_ = true;
     if (sets && !s.setting) unmould(slot);
+    if (!s.on()) s.mass = s.inside = s.spilled = s.set = s.distance = 0; // also when no other one is on
     return thawResult_ok;
 }
 
