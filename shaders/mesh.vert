@@ -7,7 +7,8 @@ layout(location = 0) in vec3 aPosition;
 layout(location = 1) in vec3 aNormal;
 layout(location = 2) in float aTemperature;
 layout(location = 3) in float aLiquid;
-layout(location = 4) in float aMaterial;
+layout(location = 4) in vec4 aMaterials; // up to four
+layout(location = 5) in vec4 aShares;    // of each; nothing: all of the first
 
 uniform mat4 uModel;
 uniform vec4 uMaterialColor[MAX_MATERIALS]; // w: translucency
@@ -33,9 +34,15 @@ void main() {
 #else
     vPosition = world.xyz;
     vNormal = mat3(uModel) * aNormal;
-    int material = clamp(int(aMaterial + 0.5), 0, MAX_MATERIALS - 1);
-    vAlbedo = uMaterialColor[material];
-    vState = vec3(aTemperature, aLiquid, uMaterialRoughness[material]);
+    vec4 shares = aShares.x > 0.0 ? aShares : vec4(1.0, 0.0, 0.0, 0.0);
+    vAlbedo = vec4(0.0);
+    float roughness = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        int material = clamp(int(aMaterials[k] + 0.5), 0, MAX_MATERIALS - 1);
+        vAlbedo += shares[k] * uMaterialColor[material];
+        roughness += shares[k] * uMaterialRoughness[material];
+    }
+    vState = vec3(aTemperature, aLiquid, roughness);
     gl_ClipDistance[0] = mix(1.0, world.y - uFloorHeight, uClipFloor);
     gl_Position = uProjection * uView * world;
 #endif

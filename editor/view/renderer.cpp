@@ -71,7 +71,7 @@ void bindTexture(int unit, GLenum kind, GLuint texture) {
 
 struct MeshBuffers {
     GlVertexArray array;
-    GlBuffer positions, normals, temperatures, liquids, materials, indices;
+    GlBuffer positions, normals, temperatures, liquids, materials, mixtures, indices;
     GLsizei indexCount = 0;
     Bounds bounds;
     std::shared_ptr<const TriangleMesh> source; // keeps the address from being used again
@@ -392,7 +392,16 @@ void Renderer::State::uploadSurface(const thawSurfaceView& view) {
     };
     optional(2, surface.temperatures, view.temperatures, 4, GL_FLOAT);
     optional(3, surface.liquids, view.liquidFractions, 4, GL_FLOAT);
-    optional(4, surface.materials, view.materials, 1, GL_UNSIGNED_BYTE);
+    if (view.mixtures) {
+        // Four materials and their shares.
+        upload(surface.mixtures, GL_ARRAY_BUFFER, view.mixtures, n * 8, GL_STREAM_DRAW);
+        glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_FALSE, 8, nullptr);
+        glVertexAttribPointer(5, 4, GL_UNSIGNED_BYTE, GL_TRUE, 8, reinterpret_cast<const void*>(4));
+        glEnableVertexAttribArray(4), glEnableVertexAttribArray(5);
+    } else {
+        glDisableVertexAttribArray(5);
+        optional(4, surface.materials, view.materials, 1, GL_UNSIGNED_BYTE);
+    }
     upload(surface.indices, GL_ELEMENT_ARRAY_BUFFER, view.indices, static_cast<size_t>(surface.indexCount) * 4,
            GL_STREAM_DRAW);
     glBindVertexArray(0);

@@ -2,27 +2,42 @@
 // SPDX-License-Identifier: MIT
 #include "args.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 namespace thaw::player {
+namespace {
+
+struct Kind {
+    const char* name;
+    scene::TriMesh (*make)();
+};
+constexpr Kind kKinds[] = {{"candle", scene::makeCandle}, {"saucer", scene::makeSaucer},
+                           {"star", scene::makeStar},     {"cone", scene::makeWaffleCone},
+                           {"scoops", scene::makeScoops}, {"upper-scoop", scene::makeUpperScoop}};
+
+std::string knownKinds() {
+    std::string all;
+    for (const Kind& k : kKinds)
+        all += (all.empty() ? "" : &k == std::end(kKinds) - 1 ? " or " : ", ") + std::string(k.name);
+    return all;
+}
+
+} // namespace
 
 void addMakeMesh(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("make-mesh", "Write a mesh of the sample scenes");
     auto kind = std::make_shared<std::string>();
     auto out = std::make_shared<std::string>();
-    command->add_option("kind", *kind, "candle, saucer or star")->required();
+    command->add_option("kind", *kind, knownKinds())->required();
     command->add_option("--out", *out, "OBJ file to write")->required();
     command->callback([=, &exitCode] {
-        scene::TriMesh mesh;
-        if (*kind == "candle")
-            mesh = scene::makeCandle();
-        else if (*kind == "saucer")
-            mesh = scene::makeSaucer();
-        else if (*kind == "star")
-            mesh = scene::makeStar();
-        else
-            throw scene::InputError("make-mesh: must be candle, saucer or star, got '" + scene::oneLine(*kind, 40) +
-                                    "'");
+        const auto found =
+            std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return *kind == k.name; });
+        if (found == std::end(kKinds))
+            throw scene::InputError("make-mesh: must be " + knownKinds() + ", got '" + scene::oneLine(*kind, 40) + "'");
+        const scene::TriMesh mesh = found->make();
         try {
             scene::writeObj(*out, mesh, "made by: thaw make-mesh " + *kind);
         } catch (const std::runtime_error& e) {

@@ -219,6 +219,81 @@ TriMesh makeCandle() {
     return mesh;
 }
 
+TriMesh makeWaffleCone() {
+    constexpr double kHeight = 0.105, kRadius = 0.0275;
+    constexpr int kSide = 40;
+    std::vector<ProfilePoint> profile{{0.0, 0.0}, {0.0035, 0.0}};
+    for (int i = 1; i <= kSide; ++i) {
+        const double u = double(i) / kSide;
+        // Baked in rings.
+        profile.push_back({0.0035 + (kRadius - 0.0035) * u + 0.0005 * std::sin(2 * kPi * 9 * u), kHeight * u});
+    }
+    for (const ProfilePoint& p : {ProfilePoint{0.0292, 0.1065},
+                                  {0.0295, 0.110},
+                                  {0.0295, 0.116},
+                                  {0.0288, 0.1178},
+                                  {0.0275, 0.118},
+                                  {0.0262, 0.1172},
+                                  {0.0258, 0.115},
+                                  {0.0245, 0.1095},
+                                  {0.021, 0.108},
+                                  {0.012, 0.1075},
+                                  {0.0, 0.1075}})
+        profile.push_back(p);
+    TriMesh mesh = makeLathe(profile, 48);
+    // The pattern of the iron, which runs round both ways.
+    for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+        float* p = &mesh.vertices[3 * v];
+        const double r = std::hypot(p[0], p[2]), angle = std::atan2(p[2], p[0]), y = p[1];
+        if (r < 0.004 || y < 0.004 || y > 0.104) continue;
+        const double wave = std::sin(12 * angle + 420 * y) * std::sin(12 * angle - 420 * y);
+        const double scale = 1 + 0.0007 * wave / r;
+        p[0] = float(p[0] * scale), p[2] = float(p[2] * scale);
+    }
+    return mesh;
+}
+
+namespace {
+
+TriMesh makeScoop(double radius, thawVec3 center, double turn) {
+    constexpr int kRings = 40, kSegments = 56;
+    std::vector<ProfilePoint> profile;
+    for (int i = 0; i <= kRings; ++i) {
+        const double a = kPi * i / kRings;
+        profile.push_back({radius * std::sin(a), -radius * std::cos(a)});
+    }
+    TriMesh mesh = makeLathe(profile, kSegments);
+    for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+        float* p = &mesh.vertices[3 * v];
+        const double up = p[1] / radius, around = std::hypot(p[0], p[2]) / radius;
+        const double angle = std::atan2(p[2], p[0]) + turn;
+        // Torn by the spoon: waves of several lengths, and a skirt that it pressed out at the foot.
+        const double rough = 0.022 * std::sin(3 * angle + 5 * up) + 0.016 * std::sin(7 * angle - 9 * up + 1.3) +
+                             0.012 * std::sin(13 * angle + 17 * up + 0.7) + 0.010 * std::sin(31 * up + 2 * angle);
+        const double skirt =
+            bump(up + 0.55, 0.17) * (0.17 + 0.05 * std::sin(5 * angle + 1.1) + 0.04 * std::sin(9 * angle));
+        const double scale = 1 + around * (rough + skirt);
+        p[0] = float(p[0] * scale) + center.x;
+        p[2] = float(p[2] * scale) + center.z;
+        p[1] = float(std::max(p[1] * (1 + 0.5 * rough), -0.72 * radius)) + center.y;
+    }
+    return mesh;
+}
+
+} // namespace
+
+TriMesh makeLowerScoop() { return makeScoop(0.027, {0.0f, 0.135f, 0.0f}, 0.0); }
+TriMesh makeUpperScoop() { return makeScoop(0.024, {0.002f, 0.168f, 0.0f}, 2.1); }
+
+TriMesh makeScoops() {
+    TriMesh mesh = makeLowerScoop();
+    const TriMesh upper = makeUpperScoop();
+    const uint32_t first = uint32_t(mesh.vertexCount());
+    mesh.vertices.insert(mesh.vertices.end(), upper.vertices.begin(), upper.vertices.end());
+    for (const uint32_t i : upper.indices) mesh.indices.push_back(first + i);
+    return mesh;
+}
+
 TriMesh makeStar() {
     constexpr int kRound = 40, kRings = 25;
     constexpr double kTip = 0.036, kNotch = 0.016, kHalf = 0.014;

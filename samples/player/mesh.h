@@ -54,6 +54,14 @@ TriMesh makeLathe(const std::vector<ProfilePoint>& profile, int segments);
 TriMesh makeCandle();
 // A saucer, 0.055 m in radius and 0.011 m high, its foot on y = 0, its well at y = 0.003.
 TriMesh makeSaucer();
+// A waffle cone, its tip on y = 0, 0.118 m high, 0.0295 m in radius at its rim, with a shallow bed for what lies on it.
+TriMesh makeWaffleCone();
+// What a spoon has scooped: a ball of 0.027 m about (0, 0.135, 0) with a skirt and a rough face, for that cone; and a
+// smaller one of 0.024 m on top of it, about (0.002, 0.168, 0).
+TriMesh makeLowerScoop();
+TriMesh makeUpperScoop();
+// Both in one mesh.
+TriMesh makeScoops();
 // A star of five arms, upright on two of them, 0.068 m wide and 0.028 m deep at its middle, its foot on y = 0; 2,000
 // triangles.
 TriMesh makeStar();

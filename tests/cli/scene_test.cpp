@@ -390,7 +390,12 @@ TEST_CASE("the meshes of the candle scene are what the player makes") {
         double tolerance;
     };
     const Case cases[] = {{"candle.obj", makeCandle(), 3.14159 * 0.017 * 0.017 * 0.12, 0.1},
-                          {"saucer.obj", makeSaucer(), 24e-6, 0.1}};
+                          {"saucer.obj", makeSaucer(), 24e-6, 0.1},
+                          // A cone and a rim; two balls, and one, of which the feet are flat.
+                          {"cone.obj", makeWaffleCone(), 109e-6, 0.02},
+                          {"scoops.obj", makeScoops(), 139e-6, 0.02},
+                          {"upper_scoop.obj", makeUpperScoop(), 57e-6, 0.02},
+                          {"star.obj", makeStar(), 40.8e-6, 0.01}};
     for (const Case& c : cases) {
         CAPTURE(c.file);
         CHECK(unpairedEdges(c.mesh) == 0);

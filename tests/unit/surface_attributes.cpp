@@ -66,5 +66,47 @@ TEST_CASE("surface: one hot particle colours its own drop only") {
         CHECK(s.liquidFractions[v] <= 1);
         CHECK(s.materials[v] == (hot ? 3 : 1));
         CHECK(s.bodies[v] == (hot ? 500 : 7));
+        CHECK(s.mixtures[v].material[0] == (hot ? 3 : 1));
+        CHECK(s.mixtures[v].share[0] == 255);
+        CHECK(s.mixtures[v].share[1] == 0);
     }
+}
+
+TEST_CASE("surface: materials mix where they meet, and add up") {
+    // A bar of three materials, the middle one a layer of one particle.
+    Wax wax;
+    for (int x = -6; x <= 6; ++x)
+        for (int y = -3; y <= 3; ++y)
+            for (int z = -3; z <= 3; ++z)
+                wax.add(wax.spacing * Vec3{float(x), float(y), float(z)}, wax.spacing, 300, 0,
+                        uint8_t(x < 0   ? 4
+                                : x > 0 ? 200
+                                        : 7));
+    Mesher mesher;
+    Surface& s = mesher(wax);
+    int mixed = 0;
+    for (size_t v = 0; v < s.positions.size(); ++v) {
+        const Surface::Mixture& m = s.mixtures[v];
+        int sum = 0;
+        for (int k = 0; k < 4; ++k) {
+            sum += m.share[k];
+            if (k > 0) CHECK(m.share[k] <= m.share[k - 1] + 1);
+            if (m.share[k] == 0) CHECK(m.material[k] == 0);
+        }
+        CHECK(sum == 255);
+        const float x = s.positions[v].x / wax.spacing;
+        const auto share = [&](uint8_t material) {
+            for (int k = 0; k < 4; ++k)
+                if (m.share[k] && m.material[k] == material) return int(m.share[k]);
+            return 0;
+        };
+        if (x < -2.5f) CHECK(share(4) == 255);
+        if (x > 2.5f) CHECK(share(200) == 255);
+        if (std::fabs(x) < 0.1f) {
+            CHECK(share(7) > 80);
+            CHECK(std::abs(share(4) - share(200)) < 60);
+            ++mixed;
+        }
+    }
+    CHECK(mixed > 20);
 }

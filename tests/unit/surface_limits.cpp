@@ -17,7 +17,8 @@ template <class T> bool sameBits(const Array<T>& a, const Array<T>& b) {
 bool sameBits(const Surface& a, const Surface& b) {
     return sameBits(a.positions, b.positions) && sameBits(a.normals, b.normals) &&
            sameBits(a.temperatures, b.temperatures) && sameBits(a.liquidFractions, b.liquidFractions) &&
-           sameBits(a.materials, b.materials) && sameBits(a.bodies, b.bodies) && sameBits(a.indices, b.indices);
+           sameBits(a.materials, b.materials) && sameBits(a.bodies, b.bodies) && sameBits(a.mixtures, b.mixtures) &&
+           sameBits(a.indices, b.indices);
 }
 
 // A disordered lump with strays and two materials.

@@ -705,7 +705,9 @@ typedef struct thawSurfaceView {
     const float* liquidFractions; /* 0..1 */
     const uint8_t* materials;     /* index1 - 1 of the nearest particle's material */
     const uint16_t* bodies;       /* index1 - 1 of its thawBodyId */
-    const uint32_t* indices;      /* three per triangle, counter-clockwise from outside */
+    const uint8_t* mixtures; /* 8 of each vertex: index1 - 1 of up to four materials around it, then their shares in
+                                255ths, the largest first; they sum to 255, what is not used is 0 */
+    const uint32_t* indices; /* three per triangle, counter-clockwise from outside */
 } thawSurfaceView;
 /* Makes the mesh of everything that is in the world. Watertight; empty when there are no particles. As long as nothing
  * has changed it is the same mesh and costs next to nothing. */

@@ -55,7 +55,8 @@ public:
     const Block& block(int b) const { return blocks_[b]; }
     const int32_t* members(const Block& b) const {
         return members_.data() + b.begin;
-    } // particles that reach it, ascending
+    }                                                                    // particles that reach it, ascending
+    float radius(int particle) const { return reach_[particle].radius; } // m, of its kernel
     const float* values(int block, Channel channel) const {
         return values_.data() + (size_t(block) * kChannels + channel) * kNodes;
     }

@@ -16,6 +16,7 @@ constexpr int kWide = kSide + 1,
 
 // Shading shows bumps that the outline does not: two passes hide them on disordered particles, three flatten drips.
 constexpr int kNormalPasses = 2;
+constexpr int kMostSeen = 16; // materials around a vertex that are told apart
 
 int nodeAt(int x, int y, int z) { return (z * kSide + y) * kSide + x; }
 int wideAt(int x, int y, int z) { return (z * kWide + y) * kWide + x; }
@@ -59,6 +60,25 @@ template <class F> void forCrossings(const float* fill, F&& f) {
             }
 }
 
+// The four with the largest sums, of equals the one with the lower index, as shares.
+void mix(uint8_t* seen, int kinds, const float* sums, Surface::Mixture& out) {
+    out = {};
+    const int used = std::min(kinds, 4);
+    float all = 0;
+    for (int k = 0; k < used; ++k) {
+        for (int n = k + 1; n < kinds; ++n) {
+            const float a = sums[seen[n]], b = sums[seen[k]];
+            if (a > b || (a == b && seen[n] < seen[k])) std::swap(seen[n], seen[k]);
+        }
+        all += sums[seen[k]];
+    }
+    int left = 255;
+    for (int k = used - 1; k >= 0; --k) {
+        const int share = k == 0 ? left : std::min(left, int(255 * sums[seen[k]] / all + 0.5f));
+        if (share > 0) out.material[k] = seen[k], out.share[k] = uint8_t(share), left -= share;
+    }
+}
+
 template <class F> void forCells(const float* fill, F&& f) {
     for (int z = 0; z < kSide; ++z)
         for (int y = 0; y < kSide; ++y)
@@ -70,12 +90,12 @@ template <class F> void forCells(const float* fill, F&& f) {
 
 Surface::Surface(Allocator& allocator)
     : positions(allocator), normals(allocator), temperatures(allocator), liquidFractions(allocator),
-      materials(allocator), bodies(allocator), indices(allocator), field_(allocator), smoother_(allocator),
-      meshes_(allocator), edgeVertices_(allocator), last_(allocator), mobility_(allocator) {}
+      materials(allocator), bodies(allocator), mixtures(allocator), indices(allocator), field_(allocator),
+      smoother_(allocator), meshes_(allocator), edgeVertices_(allocator), last_(allocator), mobility_(allocator) {}
 
 void Surface::clear() {
     positions.clear(), normals.clear(), temperatures.clear(), liquidFractions.clear(), materials.clear(),
-        bodies.clear(), indices.clear();
+        bodies.clear(), mixtures.clear(), indices.clear();
 }
 
 void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, Tasks& tasks) {
@@ -134,7 +154,7 @@ void Surface::makeMesh(const SurfaceInput& input, float cellSize, Tasks& tasks) 
     }
     temperatures.resizeRaw(vertexSum);
     liquidFractions.resizeRaw(vertexSum);
-    materials.resizeRaw(vertexSum), bodies.resizeRaw(vertexSum);
+    materials.resizeRaw(vertexSum), bodies.resizeRaw(vertexSum), mixtures.resizeRaw(vertexSum);
     mobility_.resizeRaw(vertexSum);
     positions.resizeRaw(vertexSum);
     indices.resizeRaw(indexSum);
@@ -174,13 +194,27 @@ void Surface::emit(int block, const SurfaceInput& input) {
     for (int k = 1; k < memberCount; ++k)
         oneOrigin &= input.materials[members[k]] == input.materials[members[0]] &&
                      input.bodies[members[k]] == input.bodies[members[0]];
-    auto nearest = [&](Vec3 p) {
-        float best = INFINITY;
+    // The nearest particle, and what of each material is around.
+    auto look = [&](Vec3 p, Mixture& mixture) {
+        float best = INFINITY, sums[256];
         int32_t at = members[0];
+        uint8_t seen[kMostSeen];
+        int kinds = 0;
         for (int k = 0; k < memberCount; ++k) {
-            Vec3 d = input.positions[members[k]].xyz() - p;
-            if (float d2 = dot(d, d); d2 < best) best = d2, at = members[k];
+            const int32_t i = members[k];
+            const Vec3 d = input.positions[i].xyz() - p;
+            const float d2 = dot(d, d), radius = field_.radius(i), t = 1 - d2 / (radius * radius);
+            if (d2 < best) best = d2, at = i;
+            if (!(t > 0)) continue;
+            const uint8_t material = input.materials[i];
+            int n = 0;
+            while (n < kinds && seen[n] != material) ++n;
+            if (n == kMostSeen) continue;
+            if (n == kinds) seen[kinds++] = material, sums[material] = 0;
+            sums[material] += t * t * t;
         }
+        if (kinds == 0) seen[kinds++] = input.materials[at], sums[input.materials[at]] = 1;
+        mix(seen, kinds, sums, mixture);
         return at;
     };
 
@@ -199,7 +233,8 @@ void Surface::emit(int block, const SurfaceInput& input) {
         temperatures[v] = mean(temperature);
         liquidFractions[v] = std::clamp(mean(liquid), 0.0f, 1.0f);
         mobility_[v] = SurfaceField::mobility(mean(company));
-        const int32_t origin = oneOrigin ? members[0] : nearest(positions[v]);
+        mixtures[v] = {{input.materials[members[0]]}, {255}};
+        const int32_t origin = oneOrigin ? members[0] : look(positions[v], mixtures[v]);
         materials[v] = input.materials[origin], bodies[v] = input.bodies[origin];
         ++v;
     });

@@ -25,6 +25,10 @@ public:
     Array<float> temperatures, liquidFractions;
     Array<uint8_t> materials;
     Array<uint16_t> bodies;
+    struct Mixture { // the largest share first; shares sum to 255
+        uint8_t material[4], share[4];
+    };
+    Array<Mixture> mixtures;
     Array<uint32_t> indices; // three per triangle, counter-clockwise from outside
 
     int made() const { return made_; } // meshes since the beginning

@@ -937,6 +937,7 @@ void World::extractSurface(const thawSurfaceDef& d, thawSurfaceView& out) {
            surface_.liquidFractions.data(),
            surface_.materials.data(),
            surface_.bodies.data(),
+           surface_.mixtures.empty() ? nullptr : surface_.mixtures[0].material,
            surface_.indices.data()};
 }
 
