@@ -300,12 +300,7 @@ void ledger(Findings& found) {
     addPath(straight, {{-1, 0, 0}, {1, 0, 0}},
             [](thawPathDef& d) { d.radius = 0.1f, d.reach = 0.2f, d.strength = 0.3f, d.speed = 0.1f; });
     straight.step(60);
-    const thawParticleView p = straight.particles();
-    double kinetic = 0;
-    for (int i = 0; i < p.count; ++i) {
-        const float* v = p.velocities + 4 * i;
-        kinetic += 0.5 * double(v[3]) * (double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2]);
-    }
+    const double kinetic = kineticEnergy(straight.particles());
     thawWorld_GetLedger(straight.world(), &l);
     found.atLeast("the same along a straight line: kinetic energy it got, mJ", 0.01, 1e3 * kinetic);
     found.within("of that in the ledger, mJ", 1e3 * kinetic, 1e3 * l.controlEnergy, 1e-3);
@@ -320,14 +315,7 @@ void rest(Findings& found) {
     double sum = 0;
     s.lab.step(1800, [&](int f) {
         if (f < 1200) return;
-        const thawParticleView p = s.lab.particles();
-        double kinetic = 0, mass = 0;
-        for (int i = 0; i < p.count; ++i) {
-            const float* v = p.velocities + 4 * i;
-            const double m = double(v[3]);
-            kinetic += 0.5 * m * (double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2]), mass += m;
-        }
-        sum += kinetic / (kG * double(Slope::kSpacing) * mass) / 600;
+        sum += kineticOver(s.lab) / 600;
     });
     found.atMost("lock at rest, from 20 to 30 s: kinetic energy over g dx m, mean", 1e-4, sum);
 }

@@ -234,17 +234,6 @@ void gather(Findings& found, const char* what, const scene::TriMesh& mesh, thawV
 void sphereCase(Findings& found) { gather(found, "sphere of 20 mm", scene::makeSphere(0.02f), {0, 0.02f, 0}); }
 void starCase(Findings& found) { gather(found, "star of 2,000 triangles", scene::makeStar(), {0, 0, 0}); }
 
-double kineticOver(const Lab& lab) { // g dx m
-    const thawParticleView p = lab.particles();
-    double kinetic = 0, mass = 0;
-    for (int i = 0; i < p.count; ++i) {
-        const float* v = p.velocities + 4 * i;
-        const double m = double(v[3]);
-        kinetic += 0.5 * m * (double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2]), mass += m;
-    }
-    return kinetic / (kG * double(lab.spacing()) * mass);
-}
-
 // Fills a ring and a disc in it, liquid for good.
 void restCase(Findings& found) {
     Lab lab(0.0025f, 4000);

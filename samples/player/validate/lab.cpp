@@ -148,6 +148,22 @@ Momentum momentumOf(const thawParticleView& v) {
     return m;
 }
 
+double kineticEnergy(const thawParticleView& p) {
+    double sum = 0;
+    for (int i = 0; i < p.count; ++i) {
+        const float* v = p.velocities + 4 * i;
+        sum += 0.5 * double(v[3]) * (double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2]);
+    }
+    return sum;
+}
+
+double kineticOver(const Lab& lab) {
+    const thawParticleView p = lab.particles();
+    double mass = 0;
+    for (int i = 0; i < p.count; ++i) mass += double(p.velocities[4 * i + 3]);
+    return kineticEnergy(p) / (kG * double(lab.spacing()) * mass);
+}
+
 double lengthOf(const double (&v)[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 thawQuat turnTo(thawVec3 a, thawVec3 b) {

@@ -69,6 +69,8 @@ struct Momentum {
     double p[3], l[3];
 };
 Momentum momentumOf(const thawParticleView& particles);
+double kineticEnergy(const thawParticleView& particles); // J
+double kineticOver(const Lab& lab);                      // the same over g dx m
 double lengthOf(const double (&v)[3]);
 thawQuat turnTo(thawVec3 from, thawVec3 to); // shortest rotation between two unit vectors
 
