@@ -252,4 +252,20 @@ TEST_CASE("shapes: a step takes no memory") {
     const size_t taken = f.counters().memoryBytes;
     f.step(120);
     CHECK(f.counters().memoryBytes == taken);
+
+    // Colliders take theirs when they come, not when the shape looks for them.
+    thawColliderDef c;
+    thawInitColliderDef(&c, thawCollider_sphere);
+    c.size = {0.002f, 0, 0};
+    for (int k = 0; k < 40; ++k) {
+        c.position = {0.01f, 0.03f, 0.001f * static_cast<float>(k)};
+        thawColliderId id;
+        REQUIRE(thawCreateCollider(f.world, &c, &id, nullptr) == thawResult_ok);
+    }
+    const size_t with = f.counters().memoryBytes;
+    CHECK(with > taken);
+    f.step(1);
+    const size_t lists = f.counters().memoryBytes; // the motion's own, of contacts
+    f.step(60);
+    CHECK(f.counters().memoryBytes == lists);
 }

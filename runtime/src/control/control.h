@@ -28,6 +28,7 @@ public:
     void forgetPath(Particles& particles, size_t slot) { paths_.forget(particles, slot); }
     // Looks which cells of a shape lie in colliders: once when it is new, a share of them in each step after.
     void findWalls(const ControlFrame& f, size_t shape) { shapes_.findWalls(f, shape, 0, 1); }
+    void expectColliders(size_t count) { shapes_.expectColliders(count); }
     // How much room a shape has that is new, or another.
     void refill(const ControlFrame& f, size_t shape) { shapes_.refill(f, shape); }
     void forgetShape(Particles& particles, size_t slot) { shapes_.forget(particles, slot); }

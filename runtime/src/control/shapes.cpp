@@ -164,7 +164,7 @@ void Shapes::findWalls(const ControlFrame& f, size_t slot, size_t first, size_t 
     around.lower -= Vec3{aside, aside, aside}, around.upper += Vec3{aside, aside, aside};
     walls_.clear();
     for (int c = 0; c < f.colliderCount; ++c)
-        if (f.colliders[c].alive && f.colliders[c].bounds().overlaps(around)) walls_.push_back(&f.colliders[c]);
+        if (f.colliders[c].alive && f.colliders[c].bounds().overlaps(around)) walls_.push(&f.colliders[c]);
     const auto walled = [&](Vec3 regional) {
         const Vec3 x = space.out(s.region.outOf(regional));
         Vec3 normal;

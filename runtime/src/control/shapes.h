@@ -44,7 +44,7 @@ struct Shape {
 // carries what its strength is. Once it is full, what is inside is cooled until it sets.
 class Shapes {
 public:
-    explicit Shapes(Allocator& allocator) : near_(allocator) {}
+    explicit Shapes(Allocator& allocator) : near_(allocator), walls_(allocator) {}
 
     std::vector<Shape> shapes; // by slot
     bool any() const;          // some are alive and on
@@ -58,6 +58,8 @@ public:
     bool move(const ControlFrame& f) const; // some move with their collider
     // Takes heat from what has filled a shape. Returns how much, J.
     double cool(const ControlFrame& f);
+    // Makes room for so many colliders, so that looking for walls in a step takes none.
+    void expectColliders(size_t count) { walls_.reserve(count); }
     // Which of a shape's cells lie in colliders: every `stride`th from `first` on.
     void findWalls(const ControlFrame& f, size_t slot, size_t first, size_t stride);
     // What there is in one, and how much room is left.
@@ -76,9 +78,9 @@ private:
     void fill(const ControlFrame& f, size_t slot);
     void aim(const ControlFrame& f, size_t row, const Guide& guide) const;
 
-    Array<Near> near_;                   // per row
-    bool fresh_ = false;                 // they are of the rows and places of now
-    std::vector<const Collider*> walls_; // near the shape in hand
+    Array<Near> near_;             // per row
+    bool fresh_ = false;           // they are of the rows and places of now
+    Array<const Collider*> walls_; // near the shape in hand
 };
 
 } // namespace thaw

@@ -890,6 +890,7 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
         c.mesh = std::move(mesh);
     }
     if (colliders.size() <= slot) colliders.resize(slot + 1), colliderSlots.resize(slot + 1);
+    control_.expectColliders(colliders.size());
     colliders[slot] = std::move(c);
     colliderSlots[slot].take();
     index1 = static_cast<uint32_t>(slot) + 1;
