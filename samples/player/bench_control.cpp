@@ -16,12 +16,6 @@ struct Options {
     bool quiet = false;
 };
 
-double percentile(std::vector<double> values, double share) {
-    if (values.empty()) return 0;
-    std::sort(values.begin(), values.end());
-    return values[std::min(values.size() - 1, size_t(share * double(values.size())))];
-}
-
 // What paths and shapes take of the steps in which they guide something, beside the rest of the same steps: the shares
 // of one run differ little where the times do.
 int benchControl(const Options& o) {

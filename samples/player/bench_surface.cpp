@@ -16,11 +16,6 @@ struct Options {
     int threads = 1, frames = 60;
 };
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values.empty() ? 0 : values[values.size() / 2];
-}
-
 // A block of 16,000 particles on a floor, of which a share is liquid and flows.
 int benchSurface(const Options& o) {
     checkRange("--threads", o.threads, 1, 64);
@@ -49,7 +44,8 @@ int benchSurface(const Options& o) {
         }
         const thawCounters c = lab.counters();
         std::cout << formatted("%d,%d,%d,%d,%d,%.3f,%.3f,%.3f\n", c.particles, c.moving, o.threads, view.vertexCount,
-                               view.triangleCount, median(times), *std::min_element(times.begin(), times.end()),
+                               view.triangleCount, percentile(times, 0.5),
+                               *std::min_element(times.begin(), times.end()),
                                *std::max_element(times.begin(), times.end()));
     }
     return kExitOk;

@@ -89,13 +89,14 @@ void Report::finish(const thawWorld* world) {
     hash_ = thawWorld_GetStateHash(world);
 }
 
-double Report::percentile(double share) const {
-    if (milliseconds_.empty()) return 0.0;
-    std::vector<double> sorted = milliseconds_;
-    std::sort(sorted.begin(), sorted.end());
-    const double rank = std::ceil(share * double(sorted.size()));
-    return sorted[std::min(sorted.size(), size_t(std::max(rank, 1.0))) - 1];
+double percentile(std::vector<double> values, double share) {
+    if (values.empty()) return 0.0;
+    std::sort(values.begin(), values.end());
+    const double rank = std::ceil(share * double(values.size()));
+    return values[std::min(values.size(), size_t(std::max(rank, 1.0))) - 1];
 }
+
+double Report::percentile(double share) const { return player::percentile(milliseconds_, share); }
 
 size_t Report::framesOver() const {
     return size_t(

@@ -38,7 +38,6 @@ public:
     void finish(const thawWorld* world);
 
     size_t steps() const { return milliseconds_.size(); }
-    // Nearest rank: the smallest time that `share` of all steps do not exceed. 0 without steps.
     double percentile(double share) const;
     size_t framesOver() const;
     uint32_t statusUnion() const;
@@ -69,6 +68,8 @@ private:
     uint64_t hash_ = 0;
 };
 
+// Nearest rank: the smallest value that `share` of all do not exceed. 0 of none.
+double percentile(std::vector<double> values, double share);
 // Bits in words, "nothing" for none.
 std::string statusWords(uint32_t status);
 std::string hashText(uint64_t hash);

@@ -84,13 +84,7 @@ TEST_CASE("shapes: what sets outside of one is outside") {
 
 TEST_CASE("shapes: what is gone obeys none") {
     WorldFixture f;
-    f.def.thermalTimeScale = 0;
-    f.create();
-    thawMaterialDef m;
-    thawInitMaterialDef(&m, thawMaterial_wax);
-    m.viscosityLiquid = 0.5f;
-    f.addMaterial(m);
-    f.addFloor();
+    waxOnFloor(f);
     const thawBodyId left = f.addBox({-0.032f, 0, -0.008f}, {-0.016f, 0.008f, 0.008f}, 345),
                      right = f.addBox({0.016f, 0, -0.008f}, {0.032f, 0.008f, 0.008f}, 345);
     Drawing disc;
@@ -118,13 +112,7 @@ TEST_CASE("shapes: what is gone obeys none") {
 
 TEST_CASE("shapes: what has set beside one does not keep it from setting") {
     WorldFixture f;
-    f.def.thermalTimeScale = 0;
-    f.create();
-    thawMaterialDef m;
-    thawInitMaterialDef(&m, thawMaterial_wax);
-    m.viscosityLiquid = 0.5f;
-    f.addMaterial(m);
-    f.addFloor();
+    waxOnFloor(f);
     f.addBox({-0.008f, 0, -0.008f}, {0.008f, 0.008f, 0.008f}, 345);
     const thawBodyId beside = f.addBox({0.032f, 0, -0.008f}, {0.048f, 0.008f, 0.008f}, 345);
     Drawing disc;
@@ -201,13 +189,7 @@ TEST_CASE("shapes: another place or reach lets no more in than there is room for
 
 TEST_CASE("shapes: one that is on again cools from what it finds") {
     WorldFixture f;
-    f.def.thermalTimeScale = 0;
-    f.create();
-    thawMaterialDef m;
-    thawInitMaterialDef(&m, thawMaterial_wax);
-    m.viscosityLiquid = 0.5f;
-    f.addMaterial(m);
-    f.addFloor();
+    waxOnFloor(f);
     const thawBodyId body = f.addBox({-0.016f, 0, -0.016f}, {0.016f, 0.012f, 0.016f}, 345);
     Drawing disc;
     disc.ellipse(0, 0, 0.025f, 0.025f);

@@ -75,15 +75,21 @@ inline thawShapeState stateOf(WorldFixture& f, thawShapeId id) {
     return s;
 }
 
-// A block of liquid on a floor. heat: seconds of it per second.
-inline void pool(WorldFixture& f, float heat = 0) {
+// Wax of half a Pa s, of which there is none yet, and a floor.
+inline void waxOnFloor(WorldFixture& f, float heat = 0, float density = NAN) {
     f.def.thermalTimeScale = heat;
     f.create();
     thawMaterialDef m;
     thawInitMaterialDef(&m, thawMaterial_wax);
-    m.viscosityLiquid = 0.5f, m.density = 800;
+    m.viscosityLiquid = 0.5f;
+    if (!std::isnan(density)) m.density = density;
     f.addMaterial(m);
     f.addFloor();
+}
+
+// A block of liquid on a floor. heat: seconds of it per second.
+inline void pool(WorldFixture& f, float heat = 0) {
+    waxOnFloor(f, heat, 800);
     f.addBox({-0.016f, 0, -0.016f}, {0.016f, 0.012f, 0.016f}, 345);
 }
 

@@ -210,14 +210,19 @@ void checkSource(Check& c, const thawHeatSourceDef* d) {
     c.range("irradiance", d->irradiance, -1e12, 1e12);
 }
 
+// The collider that a control moves with, or null.
+void checkCarrier(Check& c, const World& w, thawColliderId id) {
+    if (id.index1 != 0 && !alive(w, id, w.colliderSlots))
+        c.fail(thawResult_staleId, "collider: is not alive in this world");
+}
+
 void checkPath(Check& c, const World& w, const thawPathDef* d) {
     c.initialised("pathDef", d);
     if (!c.ok()) return;
     c.range("pointCount", d->pointCount, 2, 1e6);
     if (c.ok() && !d->points) c.fail(thawResult_invalidArgument, "points: is NULL");
     c.places("points", d->points, d->pointCount);
-    if (d->collider.index1 != 0 && !alive(w, d->collider, w.colliderSlots))
-        c.fail(thawResult_staleId, "collider: is not alive in this world");
+    checkCarrier(c, w, d->collider);
     c.range("radius", d->radius, 1e-4, 10);
     if (d->reach != 0) c.range("reach", d->reach, d->radius, 10);
     c.range("strength", d->strength, 0, 1);
@@ -252,8 +257,7 @@ void checkShape(Check& c, const World& w, const thawShapeDef* d) {
     c.finite("position", d->position, 1e5);
     c.rotation("rotation", d->rotation);
     c.range("scale", d->scale, 1e-6, 1e6);
-    if (d->collider.index1 != 0 && !alive(w, d->collider, w.colliderSlots))
-        c.fail(thawResult_staleId, "collider: is not alive in this world");
+    checkCarrier(c, w, d->collider);
     if (d->reach != 0) c.range("reach", d->reach, 1e-4, 10);
     if (d->depth != 0) c.range("depth", d->depth, 1e-4, 10);
     c.range("thickness", d->thickness, 0, 10);

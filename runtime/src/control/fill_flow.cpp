@@ -149,30 +149,43 @@ Vec3 FillFlow::middleOf(size_t cell) const {
                                   static_cast<float>(cell / (nx * ny))};
 }
 
-void FillFlow::add(std::vector<float>& to, Vec3 p, float volume, double* beyond) {
+bool FillFlow::locate(Vec3 p, Spot& spot) const {
     const float inverse = 1 / cell_;
     const Vec3 c = inverse * (p - origin_);
     const int x = static_cast<int>(std::floor(c.x)), y = static_cast<int>(std::floor(c.y)),
               z = flat_ ? 0 : static_cast<int>(std::floor(c.z));
-    if (!(x >= 0 && y >= 0 && z >= 0 && x + 1 < nx_ && y + 1 < ny_ && (flat_ || z + 1 < nz_))) {
+    if (!(x >= 0 && y >= 0 && z >= 0 && x + 1 < nx_ && y + 1 < ny_ && (flat_ || z + 1 < nz_))) return false;
+    spot = {at(x, y, z), c.x - static_cast<float>(x), c.y - static_cast<float>(y),
+            flat_ ? 0 : c.z - static_cast<float>(z)};
+    return true;
+}
+
+void FillFlow::add(std::vector<float>& to, Vec3 p, float volume, double* beyond) {
+    Spot spot;
+    if (!locate(p, spot)) {
         if (beyond) *beyond += static_cast<double>(volume);
         return;
     }
-    const float fx = c.x - static_cast<float>(x), fy = c.y - static_cast<float>(y), v = volume / unit_;
-    const size_t first = at(x, y, z), row = static_cast<size_t>(nx_);
+    const float fx = spot.x, fy = spot.y, v = volume / unit_;
+    const size_t row = static_cast<size_t>(nx_);
     const auto layer = [&](size_t k, float w) {
         to[k] += w * (1 - fx) * (1 - fy), to[k + 1] += w * fx * (1 - fy);
         to[k + row] += w * (1 - fx) * fy, to[k + row + 1] += w * fx * fy;
     };
-    if (flat_) return layer(first, v);
-    const float fz = c.z - static_cast<float>(z);
-    layer(first, v * (1 - fz)), layer(first + at(0, 0, 1), v * fz);
+    if (flat_) return layer(spot.first, v);
+    layer(spot.first, v * (1 - spot.z)), layer(spot.first + at(0, 0, 1), v * spot.z);
 }
 
 void FillFlow::clear() {
     std::fill(liquid_.begin(), liquid_.end(), 0.0f), std::fill(set_.begin(), set_.end(), 0.0f);
     std::fill(solid_.begin(), solid_.end(), 0.0f);
     beyond_ = 0;
+}
+
+// How much more goes in, of what there is room for in all.
+void FillFlow::limit(double most, double melt) {
+    full_ = most <= melt, open_ = !full_ && (open_ || kOpen * most > melt);
+    room_ = unit_ * static_cast<float>(std::max(0.0, most - melt));
 }
 
 void FillFlow::setTargets(Vec3 down, float thickness, float least) {
@@ -197,15 +210,9 @@ void FillFlow::setTargets(Vec3 down, float thickness, float least) {
         if (thickness == 0) {
             full_ = false, open_ = true, room_ = INFINITY;
         } else {
-            const double most = held(thickness);
-            full_ = most <= melt, open_ = !full_ && (open_ || kOpen * most > melt);
-            room_ = unit_ * static_cast<float>(std::max(0.0, most - melt));
+            limit(held(thickness), melt);
         }
-        if (full_) {
-            low = high;
-        } else {
-            for (int k = 0; k < 16; ++k) (held(0.5f * (low + high)) < melt ? low : high) = 0.5f * (low + high);
-        }
+        for (int k = 0; k < 16 && !full_; ++k) (held(0.5f * (low + high)) < melt ? low : high) = 0.5f * (low + high);
         sum = 0;
         for (size_t k = 0; k < n; ++k) sum += static_cast<double>(set_[k]);
         level_ = melt > 0 ? high : static_cast<float>(sum / std::max(area, 1e-9));
@@ -220,8 +227,7 @@ void FillFlow::setTargets(Vec3 down, float thickness, float least) {
     for (size_t k = 0; k < n; ++k)
         if (share_[k] > 0) layers[layer_[k]] += static_cast<double>(room(k, 1));
     for (const double l : layers) all += l;
-    full_ = all <= melt, open_ = !full_ && (open_ || kOpen * all > melt);
-    room_ = unit_ * static_cast<float>(std::max(0.0, all - melt));
+    limit(all, melt);
     float filled[kLayers];
     for (int l = 0; l < kLayers; ++l) {
         const double take = std::min(melt, layers[l]);
@@ -329,19 +335,16 @@ void FillFlow::solve(Vec3 down, float thickness, float spacing) {
 }
 
 Vec3 FillFlow::velocity(Vec3 p) const {
-    const Vec3 c = (1 / cell_) * (p - origin_);
-    const int x = static_cast<int>(std::floor(c.x)), y = static_cast<int>(std::floor(c.y)),
-              z = flat_ ? 0 : static_cast<int>(std::floor(c.z));
-    if (!(x >= 0 && y >= 0 && z >= 0 && x + 1 < nx_ && y + 1 < ny_ && (flat_ || z + 1 < nz_))) return {};
-    const float fx = c.x - static_cast<float>(x), fy = c.y - static_cast<float>(y);
-    const size_t first = at(x, y, z), row = static_cast<size_t>(nx_);
+    Spot spot;
+    if (!locate(p, spot)) return {};
+    const float fx = spot.x, fy = spot.y;
+    const size_t row = static_cast<size_t>(nx_);
     const auto layer = [&](size_t k) {
         return (1 - fy) * ((1 - fx) * velocity_[k] + fx * velocity_[k + 1]) +
                fy * ((1 - fx) * velocity_[k + row] + fx * velocity_[k + row + 1]);
     };
-    if (flat_) return layer(first);
-    const float fz = c.z - static_cast<float>(z);
-    return (1 - fz) * layer(first) + fz * layer(first + at(0, 0, 1));
+    if (flat_) return layer(spot.first);
+    return (1 - spot.z) * layer(spot.first) + spot.z * layer(spot.first + at(0, 0, 1));
 }
 
 uint64_t FillFlow::hash(uint64_t h) const {

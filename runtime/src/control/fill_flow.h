@@ -25,11 +25,9 @@ public:
     void solve(Vec3 down, float thickness, float spacing);
 
     size_t cells() const { return share_.size(); }
-    float cellSize() const { return cell_; }
     Vec3 middleOf(size_t cell) const;                                   // regional
     Box bounds() const { return {middleOf(0), middleOf(cells() - 1)}; } // of the middles
     void block(size_t cell, bool blocked) { blocked_[cell] = blocked; }
-    bool blocked(size_t cell) const { return blocked_[cell]; }
 
     // Whether the island of the region that is the nearest has more than it should: its rim is no hindrance.
     bool leaks(Vec3 regional) const;
@@ -43,6 +41,13 @@ public:
     uint64_t hash(uint64_t h) const;
 
 private:
+    // Between which cells a place is: the lowest of them, and how far it is on the way to the next ones.
+    struct Spot {
+        size_t first;
+        float x, y, z;
+    };
+    bool locate(Vec3 regional, Spot& spot) const; // false: beyond the cells
+    void limit(double most, double melt);
     void add(std::vector<float>& to, Vec3 regional, float volume, double* beyond);
     void setTargets(Vec3 down, float thickness, float least);
     void findIslands();

@@ -51,8 +51,7 @@ struct HoldResult {
 // Decides what is held: solid wax that hangs together with a collider stands still exactly, everything else moves.
 //  - releases fixed particles whose liquid fraction rose above the material's releaseFraction,
 //  - sets movers below setFraction that touch a collider or something fixed, or that a shape holds, and are slow
-//  against
-//    it: they are held, or join the rigid piece that they touch,
+//    against it: they are held, or join the rigid piece that they touch,
 //  - when relabel is set, makes rigid pieces of what no path of touching fixed particles joins to a collider, and of
 //    the parts of a piece that no longer hang together. A few particles go on as a lump of the material's solid
 //    viscosity instead, until they set again.

@@ -49,16 +49,9 @@ ControlFrame World::controlFrame(float dt) {
 }
 
 thawResult World::setPath(const thawPathDef& d, std::string& message, uint32_t& index1) {
-    size_t slot = 0;
-    if (index1 > 0) {
-        slot = index1 - 1;
-    } else {
-        while (slot < control_.paths().size() && control_.paths()[slot].alive) ++slot;
-        if (slot >= static_cast<size_t>(def.maxPaths)) {
-            message = "maxPaths: all " + std::to_string(def.maxPaths) + " paths of the world are in use";
-            return thawResult_capacity;
-        }
-    }
+    size_t slot = index1 - 1;
+    if (index1 == 0 && !freeSlot(pathSlots, def.maxPaths, "maxPaths", "paths", slot, message))
+        return thawResult_capacity;
     const float reach = d.reach > 0 ? d.reach : 2 * d.radius;
     PathLine line;
     std::vector<Vec3> points;
@@ -130,16 +123,9 @@ thawResult World::makeRegion(const thawShapeDef& d, Region& region, std::string&
 
 thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t& index1) {
     std::vector<Shape>& shapes = control_.shapes();
-    size_t slot = 0;
-    if (index1 > 0) {
-        slot = index1 - 1;
-    } else {
-        while (slot < shapes.size() && shapes[slot].alive) ++slot;
-        if (slot >= static_cast<size_t>(def.maxShapes)) {
-            message = "maxShapes: all " + std::to_string(def.maxShapes) + " shapes of the world are in use";
-            return thawResult_capacity;
-        }
-    }
+    size_t slot = index1 - 1;
+    if (index1 == 0 && !freeSlot(shapeSlots, def.maxShapes, "maxShapes", "shapes", slot, message))
+        return thawResult_capacity;
     const uint64_t form = formOf(d);
     const bool same = index1 > 0 && shapes[slot].form == form && shapes[slot].collider == d.collider.index1;
     Region made;

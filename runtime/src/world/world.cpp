@@ -50,6 +50,15 @@ Transform toTransform(thawVec3 p, thawQuat q, float scale) {
     return {{p.x, p.y, p.z}, {q.x / l, q.y / l, q.z / l, q.w / l}, scale};
 }
 
+bool freeSlot(const std::vector<Slot>& slots, int most, const char* field, const char* what, size_t& slot,
+              std::string& message) {
+    for (slot = 0; slot < slots.size() && slots[slot].alive; ++slot) {
+    }
+    if (slot < static_cast<size_t>(most)) return true;
+    message = std::string(field) + ": all " + std::to_string(most) + " " + what + " of the world are in use";
+    return false;
+}
+
 World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
       motion_(allocator), rigid_(allocator), rigidLiquid_(allocator), heat_(allocator), hold_(allocator),
@@ -696,12 +705,8 @@ void World::burnOff(double heatSeconds) {
 }
 
 thawResult World::addBody(const thawBodyDef& d, thawMeshReport& report, std::string& message, uint32_t& index1) {
-    size_t slot = 0;
-    while (slot < bodies.size() && bodies[slot].alive) ++slot;
-    if (slot >= static_cast<size_t>(def.maxBodies)) {
-        message = "maxBodies: all " + std::to_string(def.maxBodies) + " bodies of the world are in use";
-        return thawResult_capacity;
-    }
+    size_t slot;
+    if (!freeSlot(bodies, def.maxBodies, "maxBodies", "bodies", slot, message)) return thawResult_capacity;
     CleanMesh mesh;
     const Transform place = toTransform(d.position, d.rotation, d.scale);
     thawResult r = cleanMesh(d.mesh, place, mesh, message);
@@ -866,12 +871,9 @@ thawBodyState World::bodyState(uint32_t index) const {
 
 thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, std::string& message,
                               uint32_t& index1) {
-    size_t slot = 0;
-    while (slot < colliders.size() && colliders[slot].alive) ++slot;
-    if (slot >= static_cast<size_t>(def.maxColliders)) {
-        message = "maxColliders: all " + std::to_string(def.maxColliders) + " colliders of the world are in use";
+    size_t slot;
+    if (!freeSlot(colliderSlots, def.maxColliders, "maxColliders", "colliders", slot, message))
         return thawResult_capacity;
-    }
     Collider c;
     c.type = d.type;
     c.transform = toTransform(d.position, d.rotation, 1);

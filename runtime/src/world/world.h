@@ -39,6 +39,11 @@ struct Slot {
     }
 };
 
+// The first slot that is free, maybe one behind the last; false, with the reason, when `most` are in use. field: the
+// maximum's name in thawWorldDef; what: plural of what lives there.
+bool freeSlot(const std::vector<Slot>& slots, int most, const char* field, const char* what, size_t& slot,
+              std::string& message);
+
 // One independent world. Arguments are validated by the C boundary (src/api); what can still fail here returns a
 // thawResult and a message, or throws std::bad_alloc, with the world unchanged.
 class World {

@@ -80,10 +80,7 @@ struct Footprint {
         constexpr double kPixel = 0.0005;
         const int n = int(2 * half / kPixel);
         std::vector<char> seen(size_t(n) * size_t(n));
-        thawSurfaceDef d;
-        thawInitSurfaceDef(&d);
-        thawSurfaceView s;
-        if (thawWorld_ExtractSurface(lab.world(), &d, &s) != thawResult_ok) throw LabError("no surface");
+        const thawSurfaceView s = lab.surface();
         for (int t = 0; t < s.triangleCount; ++t) {
             double x[3], z[3];
             for (int k = 0; k < 3; ++k) {
@@ -201,10 +198,7 @@ struct Columns {
 };
 
 Columns surfaceOf(const Lab& lab) {
-    thawSurfaceDef d;
-    thawInitSurfaceDef(&d);
-    thawSurfaceView s;
-    if (thawWorld_ExtractSurface(lab.world(), &d, &s) != thawResult_ok) throw LabError("no surface");
+    const thawSurfaceView s = lab.surface();
     return {s.positions, s.indices, size_t(s.triangleCount), {}};
 }
 

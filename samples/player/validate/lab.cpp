@@ -127,6 +127,14 @@ thawCounters Lab::counters() const {
     return c;
 }
 
+thawSurfaceView Lab::surface() const {
+    thawSurfaceDef def;
+    thawInitSurfaceDef(&def);
+    thawSurfaceView view;
+    require(thawWorld_ExtractSurface(world_, &def, &view));
+    return view;
+}
+
 double Lab::height() const {
     const thawParticleView p = particles();
     double top = -INFINITY;

@@ -53,7 +53,8 @@ public:
 
     thawParticleView particles() const;
     thawCounters counters() const;
-    double height() const; // m, of the topmost particle's centre plus half a spacing
+    thawSurfaceView surface() const; // by the default definition
+    double height() const;           // m, of the topmost particle's centre plus half a spacing
     thawWorld* world() const { return world_; }
     float spacing() const { return spacing_; }
     thawBudget budget; // what step() passes

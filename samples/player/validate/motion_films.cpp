@@ -43,10 +43,7 @@ void inclineFilm(Findings& found) {
 
 // Sphericity pi^(1/3) (6 V)^(2/3) / A of the extracted surface: 1 for a sphere, 0.806 for a cube.
 double sphericity(const Lab& lab) {
-    thawSurfaceDef d;
-    thawInitSurfaceDef(&d);
-    thawSurfaceView s;
-    if (thawWorld_ExtractSurface(lab.world(), &d, &s) != thawResult_ok) return 0;
+    const thawSurfaceView s = lab.surface();
     double volume = 0, area = 0;
     for (int t = 0; t < s.triangleCount; ++t) {
         double v[3][3];

@@ -27,10 +27,7 @@ struct Mesh {
     std::vector<std::array<uint32_t, 3>> triangles;
 
     explicit Mesh(const Lab& lab) {
-        thawSurfaceDef d;
-        thawInitSurfaceDef(&d);
-        thawSurfaceView s;
-        if (thawWorld_ExtractSurface(lab.world(), &d, &s) != thawResult_ok) throw LabError("no surface");
+        const thawSurfaceView s = lab.surface();
         for (int v = 0; v < s.vertexCount; ++v)
             points.push_back(
                 {double(s.positions[3 * v]), double(s.positions[3 * v + 1]), double(s.positions[3 * v + 2])});
