@@ -66,6 +66,7 @@ struct Pictures::State {
     std::unique_ptr<view::Renderer> renderer;
     view::Scene scene;
     view::View view;
+    scene::Camera camera;
     std::vector<view::CaptionedImage> taken;
 
     // Particles as balls of half their spacing, of those that are drawn.
@@ -167,9 +168,7 @@ Pictures::Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, 
     }
     s.scene.key.direction = scene.look.sunDirection;
 
-    s.view.camera.eye = scene.camera.eye;
-    s.view.camera.target = scene.camera.target;
-    s.view.camera.fieldOfView = scene.camera.fieldOfViewDegrees * std::numbers::pi_v<float> / 180.0f;
+    s.camera = scene.camera;
     s.view.width = size.width;
     s.view.height = size.height;
     s.view.exposure = scene.look.exposure;
@@ -197,6 +196,9 @@ void Pictures::take(thawWorld* world, PictureView mode, const std::string& capti
     thawCounters counters;
     thawWorld_GetCounters(world, &counters);
     s.scene.time = float(counters.time);
+    const scene::Camera camera = scene::cameraAt(s.camera, counters.time);
+    s.view.camera.eye = camera.eye, s.view.camera.target = camera.target;
+    s.view.camera.fieldOfView = camera.fieldOfViewDegrees * std::numbers::pi_v<float> / 180.0f;
     if (s.scene.stage.empty()) s.scene.stage = view::sceneBounds(s.scene); // as it stands at first
     s.view.mode = mode == PictureView::temperature ? view::ViewMode::temperature
                   : mode == PictureView::phase     ? view::ViewMode::phase

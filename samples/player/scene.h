@@ -140,11 +140,23 @@ struct Prop {
     thawVec3 color{0.2f, 0.2f, 0.2f};
 };
 
+struct CameraKey {
+    float time = 0.0f; // s, range 0..3600
+    thawVec3 eye{}, target{};
+    float fieldOfViewDegrees = 35.0f; // vertical, range 1..150
+};
+
 struct Camera {
     thawVec3 eye{0.0f, 0.15f, 0.35f};
     thawVec3 target{0.0f, 0.05f, 0.0f};
     float fieldOfViewDegrees = 35.0f; // vertical, range 1..150
+    std::vector<CameraKey> keys;      // at most 1000, times ascending; none: it stands still
 };
+
+// The camera at a time in s, without keys: those of `camera` smoothly run through. Each number is a monotone cubic of
+// time (Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5, 1984): between two keys it never leaves what they span.
+// Before the first and after the last key it is theirs.
+Camera cameraAt(const Camera& camera, double time);
 
 struct Look {
     thawVec3 sunDirection{-0.62f, 0.66f, 0.36f}; // toward the sun, any length but 0

@@ -21,6 +21,10 @@ constexpr size_t kMaxSceneBytes = size_t(16) << 20;
 constexpr size_t kMaxDepth = 32;
 constexpr double kFar = 1e4; // m, no coordinate lies beyond
 
+bool meet(const thawVec3& a, const thawVec3& b) {
+    return std::hypot(double(a.x) - b.x, double(a.y) - b.y, double(a.z) - b.z) < 1e-4;
+}
+
 std::string number(double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", value);
@@ -479,6 +483,38 @@ void checkNames(const std::string& file, const char* list, const std::vector<Mat
             fail(file, std::string("/") + list + "/" + std::to_string(i) + "/name",
                  "is used twice: \"" + oneLine(items[i].name, 40) + "\"");
 }
+// Eye and look of a camera, or of one of its keys.
+void readSight(Reader& r, thawVec3& eye, thawVec3& target, float& fieldOfView) {
+    r.vector("eye", eye, -kFar, kFar, "m");
+    r.vector("target", target, -kFar, kFar, "m");
+    r.real("fieldOfViewDegrees", fieldOfView, 1.0, 150.0, "degrees");
+    if (meet(eye, target)) r.bad(r.at("target"), "lies in the eye");
+}
+
+void readCamera(const json& value, const std::string& file, Camera& camera) {
+    Reader r(value, "/camera", file);
+    readSight(r, camera.eye, camera.target, camera.fieldOfViewDegrees);
+    r.list("keys", 1000, [&](const json& item, const std::string& place) {
+        Reader k(item, place, file);
+        CameraKey key{0.0f, camera.eye, camera.target, camera.fieldOfViewDegrees};
+        k.need("time");
+        k.real("time", key.time, 0.0, 3600.0, "s");
+        readSight(k, key.eye, key.target, key.fieldOfViewDegrees);
+        if (!camera.keys.empty() && !(key.time > camera.keys.back().time))
+            k.bad(k.at("time"), "must be later than the key before it, at " + shortest(camera.keys.back().time) +
+                                    " s, got " + shortest(key.time));
+        k.done();
+        camera.keys.push_back(key);
+        // On its way from the last key the eye must not pass through what it looks at.
+        for (int step = 1; camera.keys.size() > 1 && step < 64; ++step) {
+            const double from = double(camera.keys[camera.keys.size() - 2].time);
+            const Camera now = cameraAt(camera, from + (double(key.time) - from) * step / 64);
+            if (meet(now.eye, now.target)) k.bad(k.at("target"), "meets the eye on the way to this key");
+        }
+    });
+    r.done();
+}
+
 } // namespace
 
 Scene parseScene(const std::string& text, const std::string& file, const std::string& directory) {
@@ -666,16 +702,7 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
         r.done();
         scene.props.push_back(std::move(prop));
     });
-    if (const json* value = root.find("camera")) {
-        Reader r(*value, "/camera", file);
-        r.vector("eye", scene.camera.eye, -kFar, kFar, "m");
-        r.vector("target", scene.camera.target, -kFar, kFar, "m");
-        r.real("fieldOfViewDegrees", scene.camera.fieldOfViewDegrees, 1.0, 150.0, "degrees");
-        const thawVec3 &e = scene.camera.eye, &t = scene.camera.target;
-        if (std::hypot(double(e.x) - t.x, double(e.y) - t.y, double(e.z) - t.z) < 1e-4)
-            r.bad("/camera/target", "lies in the eye");
-        r.done();
-    }
+    if (const json* value = root.find("camera")) readCamera(*value, file, scene.camera);
     if (const json* value = root.find("look")) {
         Reader r(*value, "/look", file);
         if (r.vector("sunDirection", scene.look.sunDirection, -1e3, 1e3)) {

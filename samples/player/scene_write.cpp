@@ -324,6 +324,12 @@ std::string writeScene(const Scene& scene) {
     camera.add("eye", vector(scene.camera.eye));
     camera.add("target", vector(scene.camera.target));
     camera.add("fieldOfViewDegrees", shortest(scene.camera.fieldOfViewDegrees));
+    if (!scene.camera.keys.empty())
+        camera.add("keys", list(scene.camera.keys, 4, [](const CameraKey& key, int) {
+                       return "{\"time\": " + shortest(key.time) + ", \"eye\": " + vector(key.eye) +
+                              ", \"target\": " + vector(key.target) +
+                              ", \"fieldOfViewDegrees\": " + shortest(key.fieldOfViewDegrees) + "}";
+                   }));
     root.add("camera", camera.end());
 
     ObjectText look(2);

@@ -3,6 +3,7 @@
 //
 // The scene reader and writer belong to the player's program; the tests compile them once more to call them directly.
 // NOLINTBEGIN(bugprone-suspicious-include)
+#include "../../samples/player/camera.cpp"
 #include "../../samples/player/scene_read.cpp"
 #include "../../samples/player/scene_write.cpp"
 // NOLINTEND(bugprone-suspicious-include)

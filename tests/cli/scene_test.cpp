@@ -106,7 +106,8 @@ Scene fullScene() {
     way.smooth = way.enabled = false, way.radius = 0.02f, way.reach = 0.07f, way.strength = 0.35f, way.speed = 0.11f;
     way.arrivalTime = 4.5f, way.share = 0.7f, way.priority = -3, way.startAbsorptivity = 0.95f;
     s.paths.push_back(path);
-    s.camera = {{1, 2, 3}, {0.5f, 0.25f, 0.1f}, 41.5f};
+    s.camera = {{1, 2, 3}, {0.5f, 0.25f, 0.1f}, 41.5f, {{0.5f, {1, 2, 3.1f}, {0.1f, 0.2f, 0.3f}, 40.5f}, {}}};
+    s.camera.keys[1] = {7.25f, {3.3f, 2.2f, 1.1f}, {0.4f, 0.5f, 0.6f}, 17.5f};
     s.look = {{0.0f, 0.6f, 0.8f}, 1.7f};
     s.defaults = {12.5f, 2.75f, {0.0f, 1.1f, 2.2f}};
     return s;
@@ -221,7 +222,11 @@ TEST_CASE("every field of a scene survives writing and reading") {
         CHECK((x.startAbsorptivity == y.startAbsorptivity ||
                (std::isnan(x.startAbsorptivity) && std::isnan(y.startAbsorptivity))));
     }
-    CHECK(std::memcmp(&a.camera, &b.camera, sizeof a.camera) == 0);
+    CHECK(std::memcmp(&a.camera.eye, &b.camera.eye, sizeof(thawVec3)) == 0);
+    CHECK(std::memcmp(&a.camera.target, &b.camera.target, sizeof(thawVec3)) == 0);
+    CHECK(a.camera.fieldOfViewDegrees == b.camera.fieldOfViewDegrees);
+    REQUIRE(b.camera.keys.size() == 2);
+    CHECK(std::memcmp(a.camera.keys.data(), b.camera.keys.data(), 2 * sizeof(CameraKey)) == 0);
     CHECK(a.look.exposure == b.look.exposure);
     CHECK(a.defaults.captures == b.defaults.captures);
     CHECK(a.defaults.seconds == b.defaults.seconds);
@@ -330,6 +335,19 @@ TEST_CASE("what is wrong is named with its place and value") {
         {"\"particleSpacing\": 0.005", "\"maxParticles\": 10.5",
          "/world/maxParticles: must be a whole number, got 10.5"},
         {"\"target\": [0, 0.015, 0]", "\"target\": [0.1, 0.1, 0.2]", "/camera/target: lies in the eye"},
+        {"\"target\": [0, 0.015, 0]", "\"keys\": [{\"time\": 2}, {\"eye\": [0, 0, 1]}]",
+         "at /camera/keys/1: key 'time' is missing"},
+        {"\"target\": [0, 0.015, 0]", "\"keys\": [{\"time\": 2}, {\"time\": 2}]",
+         "/camera/keys/1/time: must be later than the key before it, at 2 s, got 2"},
+        {"\"target\": [0, 0.015, 0]", "\"keys\": [{\"time\": -1}]",
+         "/camera/keys/0/time: must be in 0..3600 s, got -1"},
+        {"\"target\": [0, 0.015, 0]", "\"keys\": [{\"time\": 1, \"target\": [0.1, 0.1, 0.2]}]",
+         "/camera/keys/0/target: lies in the eye"},
+        {"\"target\": [0, 0.015, 0]",
+         "\"target\": [0, 0, 0], \"keys\": [{\"time\": 1, \"eye\": [0, 0, 1]}, {\"time\": 2, \"eye\": [0, 0, -1]}]",
+         "/camera/keys/1/target: meets the eye on the way to this key"},
+        {"\"target\": [0, 0.015, 0]", "\"keys\": [{\"time\": 1, \"fov\": 30}]", "/camera/keys/0/fov: unknown key"},
+        {"\"target\": [0, 0.015, 0]", "\"keys\": 3", "/camera/keys: must be an array, got 3"},
         {"\"exposure\": 1", "\"sunDirection\": [0, 0, 0]", "/look/sunDirection: has no length"},
         {"[0, 0.1]", "[0, -1]", "/defaults/captures/1: must be in 0..3600 s, got -1"},
         {"\"thawScene\": 1", "\"thawScene\": 2", "/thawScene: is version 2, this program reads version 1"},
