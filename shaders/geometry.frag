@@ -9,7 +9,7 @@ in vec3 vNormal;
 in vec4 vAlbedo;
 in vec3 vState;
 
-uniform int uMode;              // 0 shaded, 1 temperature, 2 phase, 3 plain beside a data view, 4 floor
+uniform int uMode;              // 0 shaded, 1 temperature, 2 phase, 3 liquid fraction, 4 plain beside a data view, 5 floor
 uniform vec2 uTemperatureRange; // K
 uniform sampler2D uRamp;
 uniform vec3 uPhaseColor[3];
@@ -26,8 +26,9 @@ void main() {
     float kind = KIND_THING;
     if (uMode == 1) color = textureLod(uRamp, vec2((t * 255.0 + 0.5) / 256.0, 0.5), 0.0).rgb;
     if (uMode == 2) color = uPhaseColor[vState.y < uPhaseLimits.x ? 0 : vState.y > uPhaseLimits.y ? 2 : 1];
+    if (uMode == 3) color = textureLod(uRamp, vec2((saturate(vState.y) * 255.0 + 0.5) / 256.0, 0.5), 0.0).rgb;
     if (uMode >= 1) kind = KIND_DATA;
-    if (uMode == 4) kind = KIND_FLOOR;
+    if (uMode == 5) kind = KIND_FLOOR;
     oNormal = vec4(octEncode(normalize(vNormal)), mix(vState.z, 0.1, wet), kind);
     oAlbedo = vec4(sqrt(color), vAlbedo.w);
 }

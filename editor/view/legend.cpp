@@ -56,9 +56,9 @@ Image bar(const std::string& title, const std::vector<Column>& columns, int s, b
     const int left = widths.size() > 1 ? widths[0] + 7 * s : 0;
     const int inner = left + barWidth + 7 * s + widths.back();
     const int width = std::max(inner, textWidth(title, s)) + 2 * pad;
-    Image panel(width, pad + line + line + barHeight + pad + 3 * s, kPanel);
+    Image panel(width, pad + line + line + barHeight + pad + 5 * s, kPanel);
     drawText(panel, pad, pad, title, s, kInk);
-    const int barX = pad + left, top = pad + 2 * line;
+    const int barX = pad + left, top = pad + 2 * line + 3 * s;
     for (int j = 0; j < barHeight; ++j) {
         const float down = (static_cast<float>(j) + 0.5f) / static_cast<float>(barHeight);
         fillRectangle(panel, barX, top + j, barWidth, 1, toRgba(heatColor(reversed ? down : 1 - down)));
@@ -77,6 +77,26 @@ Image bar(const std::string& title, const std::vector<Column>& columns, int s, b
             fillRectangle(panel, onLeft ? barX - 4 * s : barX + barWidth + s, y, 3 * s, s, kTick);
             drawText(panel, place(number(v, step)), y - 3 * s, number(v, step), s, kInk);
         }
+    }
+    return panel;
+}
+
+struct KeyRow {
+    std::string text;
+    thawVec3 color;
+};
+
+Image key(const std::string& title, const std::vector<KeyRow>& rows, int s) {
+    const int pad = 6 * s, line = textHeight(s) + 5 * s, swatch = 9 * s;
+    int width = textWidth(title, s);
+    for (const KeyRow& row : rows) width = std::max(width, swatch + 4 * s + textWidth(row.text, s));
+    Image panel(2 * pad + width, pad + line * (static_cast<int>(rows.size()) + 1) + pad - 5 * s, kPanel);
+    drawText(panel, pad, pad, title, s, kInk);
+    int y = pad;
+    for (const KeyRow& row : rows) {
+        y += line;
+        fillRectangle(panel, pad, y - s, swatch, swatch, toRgba(row.color));
+        drawText(panel, pad + swatch + 4 * s, y, row.text, s, kInk);
     }
     return panel;
 }
@@ -120,18 +140,21 @@ Image levelLegend(const std::array<int, kLevelColors>& counts, int s) {
 }
 
 Image phaseLegend(int s) {
-    s = std::max(s, 1);
-    const int pad = 6 * s, line = textHeight(s) + 5 * s, swatch = 9 * s;
-    const char* const names[3] = {"liquid", "mushy", "solid"};
-    const Phase phases[3] = {Phase::liquid, Phase::mushy, Phase::solid};
-    Image panel(2 * pad + swatch + 4 * s + textWidth("liquid", s), pad + line * 4 + pad - 5 * s, kPanel);
-    drawText(panel, pad, pad, "phase", s, kInk);
-    for (int i = 0; i < 3; ++i) {
-        const int y = pad + line * (i + 1);
-        fillRectangle(panel, pad, y - s, swatch, swatch, toRgba(phaseColor(phases[i])));
-        drawText(panel, pad + swatch + 4 * s, y, names[i], s, kInk);
+    return key("phase",
+               {{"liquid", phaseColor(Phase::liquid)},
+                {"mushy", phaseColor(Phase::mushy)},
+                {"solid", phaseColor(Phase::solid)}},
+               std::max(s, 1));
+}
+
+Image regionLegend(const std::vector<Region>& regions, int s) {
+    std::vector<KeyRow> rows;
+    for (int k = 0; k < kRegionKinds; ++k) {
+        const auto kind = static_cast<RegionKind>(k);
+        if (std::any_of(regions.begin(), regions.end(), [&](const Region& r) { return r.kind == kind; }))
+            rows.push_back({regionName(kind), regionColor(kind)});
     }
-    return panel;
+    return key("control", rows, std::max(s, 1));
 }
 
 } // namespace thaw::view

@@ -5,9 +5,11 @@
 
 #include "view/color_map.h"
 #include "view/image.h"
+#include "view/regions.h"
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace thaw::view {
 
@@ -21,5 +23,7 @@ Image rangeLegend(const std::string& title, const std::string& unit, float low, 
 Image levelLegend(const std::array<int, kLevelColors>& counts, int scale);
 /// Solid, mushy and liquid with their colours.
 Image phaseLegend(int scale);
+/// The kinds of these regions with their colours, each once.
+Image regionLegend(const std::vector<Region>& regions, int scale);
 
 } // namespace thaw::view

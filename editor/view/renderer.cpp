@@ -18,8 +18,8 @@
 #include "view/renderer.h"
 
 #include "view/color_map.h"
-#include "view/gl_objects.h"
-#include "view/legend.h"
+#include "view/data_scale.h"
+#include "view/passes.h"
 
 #include <algorithm>
 #include <array>
@@ -31,43 +31,8 @@ namespace {
 
 constexpr int kKeyMapSize = 1024, kFlameMapSize = 512;
 constexpr float kFlameHalfWidth = 0.25f;                               // of a flame's height
+constexpr int kModePlain = 4, kModeFloor = 5;                          // beyond ViewMode, as in geometry.frag
 constexpr int kMaxFlames = 8, kShadowedFlames = 4, kMaxMaterials = 16; // as in common.glsl
-
-// Texture units, fixed for the whole frame.
-enum Unit : int {
-    unitKeyMap,
-    unitFlameMap,
-    unitGeometry,
-    unitLight,
-    unitFlame,
-    unitMirror,
-    unitRamp,
-    unitNormals,
-    unitAlbedos,
-    unitDepths,
-    unitKinds,
-    unitSource,
-    unitNear,
-    unitFar
-};
-
-struct Target {
-    GlTexture texture;
-    GlFramebuffer framebuffer;
-    int width = 0, height = 0;
-};
-
-void setTexture(GLenum kind, GLint filter) {
-    glTexParameteri(kind, GL_TEXTURE_MIN_FILTER, filter);
-    glTexParameteri(kind, GL_TEXTURE_MAG_FILTER, filter);
-    glTexParameteri(kind, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(kind, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
-void bindTexture(int unit, GLenum kind, GLuint texture) {
-    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    glBindTexture(kind, texture);
-}
 
 struct MeshBuffers {
     GlVertexArray array;
@@ -77,16 +42,6 @@ struct MeshBuffers {
     std::shared_ptr<const TriangleMesh> source; // keeps the address from being used again
     bool used = false;
 };
-
-void upload(GlBuffer& buffer, GLenum kind, const void* data, size_t bytes, GLenum usage) {
-    glBindBuffer(kind, buffer.get());
-    glBufferData(kind, static_cast<GLsizeiptr>(bytes), data, usage);
-}
-
-void attribute(GLuint index, GLint components, GLenum type) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, components, type, GL_FALSE, 0, nullptr);
-}
 
 Bounds transformed(const Bounds& b, const MeshInstance& instance) {
     Bounds out;
@@ -150,12 +105,13 @@ struct Renderer::State {
     GLint maxSamples = 4;
 
     GlProgram meshGeometry, meshKey, meshFlame, meshMirror, particleGeometry, particleKey;
-    GlProgram reduce, mirrorBlur, lighting, blur, classify, shadeBackdrop, shadeThing, shadeFloor, shadeData, shadeEdge,
-        flame, bloomDown, bloomBlur, composite, overlay;
-    std::array<GlProgram*, 21> programs{
-        &meshGeometry, &meshKey,   &meshFlame, &meshMirror, &particleGeometry, &particleKey, &reduce,
-        &mirrorBlur,   &lighting,  &blur,      &classify,   &shadeBackdrop,    &shadeThing,  &shadeFloor,
-        &shadeData,    &shadeEdge, &flame,     &bloomDown,  &bloomBlur,        &composite,   &overlay};
+    GlProgram regionProgram, reduce, mirrorBlur, lighting, blur, classify, shadeBackdrop, shadeThing, shadeFloor,
+        shadeData, shadeEdge, flame, bloomDown, bloomBlur, composite, overlay;
+    std::array<GlProgram*, 22> programs{
+        &regionProgram, &meshGeometry, &meshKey,    &meshFlame, &meshMirror, &particleGeometry,
+        &particleKey,   &reduce,       &mirrorBlur, &lighting,  &blur,       &classify,
+        &shadeBackdrop, &shadeThing,   &shadeFloor, &shadeData, &shadeEdge,  &flame,
+        &bloomDown,     &bloomBlur,    &composite,  &overlay};
 
     GlVertexArray empty;
     MeshBuffers surface, floorMesh;
@@ -178,10 +134,9 @@ struct Renderer::State {
     bool resize(int w, int h, int wantedSamples, std::string& error);
     bool draw(const Scene& scene, const View& view, GLuint framebuffer, std::string& error);
 
-    bool texture(GlTexture& target, GLenum format, int w, int h, GLint filter);
-    bool colorTarget(Target& target, GLenum format, int w, int h, GLint filter, GlTexture* depth, std::string& error);
     void uploadSurface(const thawSurfaceView& view);
     MeshBuffers& stillMesh(const std::shared_ptr<const TriangleMesh>& mesh);
+    void drawRegions(const std::vector<Region>& regions);
     void fullscreen() {
         glBindVertexArray(empty.get());
         glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -222,6 +177,7 @@ bool Renderer::State::build(std::string& error) {
         {bloomDown, "fullscreen.vert", "bloom_down.frag", ""},
         {bloomBlur, "fullscreen.vert", "bloom_blur.frag", ""},
         {composite, "fullscreen.vert", "composite.frag", ""},
+        {regionProgram, "region.vert", "region.frag", ""},
         {overlay, "fullscreen.vert", "overlay.frag", ""},
     };
     for (const Recipe& r : recipes) {
@@ -250,7 +206,7 @@ bool Renderer::State::build(std::string& error) {
         glDrawBuffer(GL_NONE);
         glReadBuffer(GL_NONE);
     };
-    texture(keyMap, GL_DEPTH_COMPONENT32F, kKeyMapSize, kKeyMapSize, GL_NEAREST);
+    makeTexture(keyMap, GL_DEPTH_COMPONENT32F, kKeyMapSize, kKeyMapSize, GL_NEAREST);
     depthOnly(keyFramebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, keyMap.get(), 0);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
@@ -298,30 +254,6 @@ bool Renderer::State::build(std::string& error) {
     return true;
 }
 
-bool Renderer::State::texture(GlTexture& target, GLenum format, int w, int h, GLint filter) {
-    bindTexture(unitSource, GL_TEXTURE_2D, target.get());
-    const bool depth = format == GL_DEPTH_COMPONENT32F || format == GL_DEPTH_COMPONENT24;
-    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), w, h, 0, depth ? GL_DEPTH_COMPONENT : GL_RGBA,
-                 depth || format != GL_RGBA8 ? GL_FLOAT : GL_UNSIGNED_BYTE, nullptr);
-    setTexture(GL_TEXTURE_2D, filter);
-    return true;
-}
-
-bool Renderer::State::colorTarget(Target& target, GLenum format, int w, int h, GLint filter, GlTexture* depth,
-                                  std::string& error) {
-    texture(target.texture, format, w, h, filter);
-    target.width = w, target.height = h;
-    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture.get(), 0);
-    if (depth) {
-        texture(*depth, GL_DEPTH_COMPONENT24, w, h, GL_NEAREST);
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->get(), 0);
-    }
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return true;
-    error = "the driver refuses a render target of " + std::to_string(w) + " x " + std::to_string(h);
-    return false;
-}
-
 bool Renderer::State::resize(int w, int h, int wantedSamples, std::string& error) {
     const int n = std::clamp(wantedSamples, 1, std::max(1, static_cast<int>(maxSamples)));
     if (w == width && h == height && n == samples) return true;
@@ -329,10 +261,10 @@ bool Renderer::State::resize(int w, int h, int wantedSamples, std::string& error
     // Small pictures light every pixel: at half of 320 x 180 a drip is one sample wide.
     const int divisor = w * h > 300000 ? 2 : 1;
     lightWidth = (w + divisor - 1) / divisor, lightHeight = (h + divisor - 1) / divisor;
-    if (!colorTarget(geometry, GL_RGBA32F, lightWidth, lightHeight, GL_NEAREST, nullptr, error)) return false;
+    if (!makeTarget(geometry, GL_RGBA32F, lightWidth, lightHeight, GL_NEAREST, nullptr, error)) return false;
     for (int i = 0; i < 2; ++i) {
-        texture(lightTextures[i][0], GL_RGBA8, lightWidth, lightHeight, GL_NEAREST);
-        texture(lightTextures[i][1], GL_RGBA16F, lightWidth, lightHeight, GL_NEAREST);
+        makeTexture(lightTextures[i][0], GL_RGBA8, lightWidth, lightHeight, GL_NEAREST);
+        makeTexture(lightTextures[i][1], GL_RGBA16F, lightWidth, lightHeight, GL_NEAREST);
         glBindFramebuffer(GL_FRAMEBUFFER, lightFramebuffers[i].get());
         for (int k = 0; k < 2; ++k)
             glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(k), GL_TEXTURE_2D,
@@ -342,15 +274,15 @@ bool Renderer::State::resize(int w, int h, int wantedSamples, std::string& error
         if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
             return error = "the driver refuses the light buffers", false;
     }
-    if (!colorTarget(mirror, GL_RGBA16F, (w + 1) / 2, (h + 1) / 2, GL_LINEAR, &mirrorDepth, error)) return false;
-    if (!colorTarget(mirrorBlurred, GL_RGBA16F, (w + 1) / 2, (h + 1) / 2, GL_LINEAR, nullptr, error)) return false;
-    if (!colorTarget(kinds, GL_R8, w, h, GL_NEAREST, nullptr, error)) return false;
-    if (!colorTarget(picture, GL_RGBA16F, w, h, GL_LINEAR, nullptr, error)) return false;
-    if (!colorTarget(output, GL_RGBA8, w, h, GL_NEAREST, nullptr, error)) return false;
+    if (!makeTarget(mirror, GL_RGBA16F, (w + 1) / 2, (h + 1) / 2, GL_LINEAR, &mirrorDepth, error)) return false;
+    if (!makeTarget(mirrorBlurred, GL_RGBA16F, (w + 1) / 2, (h + 1) / 2, GL_LINEAR, nullptr, error)) return false;
+    if (!makeTarget(kinds, GL_R8, w, h, GL_NEAREST, nullptr, error)) return false;
+    if (!makeTarget(picture, GL_RGBA16F, w, h, GL_LINEAR, nullptr, error)) return false;
+    if (!makeTarget(output, GL_RGBA8, w, h, GL_NEAREST, nullptr, error)) return false;
     for (int i = 0; i < 2; ++i)
         for (int k = 0; k < 2; ++k)
-            if (!colorTarget(bloom[i][k], GL_RGBA16F, std::max(1, w >> (2 + i)), std::max(1, h >> (2 + i)), GL_LINEAR,
-                             nullptr, error))
+            if (!makeTarget(bloom[i][k], GL_RGBA16F, std::max(1, w >> (2 + i)), std::max(1, h >> (2 + i)), GL_LINEAR,
+                            nullptr, error))
                 return false;
 
     glBindFramebuffer(GL_FRAMEBUFFER, sampleFramebuffer.get());
@@ -429,6 +361,36 @@ MeshBuffers& Renderer::State::stillMesh(const std::shared_ptr<const TriangleMesh
     return *still.back();
 }
 
+// Into the bound framebuffer, over a finished picture.
+void Renderer::State::drawRegions(const std::vector<Region>& regions) {
+    if (regions.empty()) return;
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glEnable(GL_CULL_FACE);
+    regionProgram.use();
+    const auto pass = [&](const Region& region, float opacity) {
+        const Vec3 c = regionColor(region.kind);
+        const Vec3 shown{encodeSrgb(c.x) / 255.0f, encodeSrgb(c.y) / 255.0f, encodeSrgb(c.z) / 255.0f};
+        regionProgram.set3("uColor", floats(shown).data());
+        regionProgram.set("uOpacity", opacity);
+        const MeshBuffers& mesh = stillMesh(region.mesh);
+        glBindVertexArray(const_cast<MeshBuffers&>(mesh).array.get());
+        glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
+    };
+    // Bodies first, so that lines are not veiled.
+    for (const Region& region : regions)
+        if (region.kind == RegionKind::path || region.kind == RegionKind::target)
+            pass(region, region.kind == RegionKind::path ? 0.35f : 0.2f);
+    for (const Region& region : regions)
+        if (region.kind != RegionKind::path && region.kind != RegionKind::target) pass(region, 0.95f);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    for (const Region& region : regions)
+        if (region.kind == RegionKind::target) pass(region, 0.4f);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+}
+
 static bool checkScene(const Scene& scene, const View& view, std::string& error) {
     const auto refuse = [&](const std::string& why) { return error = why, false; };
     if (view.width < 16 || view.width > 8192 || view.height < 16 || view.height > 8192)
@@ -457,6 +419,8 @@ static bool checkScene(const Scene& scene, const View& view, std::string& error)
         for (const uint32_t i : m.mesh->indices)
             if (i >= m.mesh->positions.size() / 3) return refuse("a mesh index is beyond its vertices");
     }
+    for (const Region& r : scene.regions)
+        if (!r.mesh || r.mesh->normals.size() != r.mesh->positions.size()) return refuse("a region has no mesh");
     if (scene.particles) {
         const thawParticleView& p = *scene.particles;
         if (p.count < 0 || (p.count > 0 && !p.positions)) return refuse("particles lack positions");
@@ -473,6 +437,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     for (auto& known : still) known->used = false;
     std::vector<MeshBuffers*> meshes;
     for (const MeshInstance& instance : scene.meshes) meshes.push_back(&stillMesh(instance.mesh));
+    for (const Region& region : scene.regions) stillMesh(region.mesh);
     std::erase_if(still, [](const auto& known) { return !known->used; });
 
     // The scale of the scene: what melts, and things near it. A table of metres must not stretch the shadow map.
@@ -539,62 +504,22 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         }
     }
 
-    // Scales of the data views.
-    float low = view.temperatureLow, high = view.temperatureHigh;
-    if (!(low < high)) {
-        low = INFINITY, high = -INFINITY;
-        for (int32_t i = 0; scene.surface.temperatures && i < scene.surface.vertexCount; ++i)
-            low = std::fmin(low, scene.surface.temperatures[i]), high = std::fmax(high, scene.surface.temperatures[i]);
-        for (int32_t i = 0; scene.particles && scene.particles->temperatures && i < scene.particles->count; ++i)
-            low = std::fmin(low, scene.particles->temperatures[i]),
-            high = std::fmax(high, scene.particles->temperatures[i]);
-        if (!(low <= high)) low = 273.15f, high = 373.15f;
-        if (high - low < 1) low -= 0.5f, high += 0.5f;
-    }
-    GLsizei particleCount = 0;
-    float speedHigh = view.speedHigh, featureHigh = view.featureHigh;
-    std::array<int, kLevelColors> levelCounts{};
-    if (scene.particles && scene.particles->count > 0) {
-        const thawParticleView& p = *scene.particles;
-        particleCount = p.count;
-        const auto count = static_cast<size_t>(p.count);
-        values.assign(count, 0);
-        if (scene.particleColor == ParticleColor::temperature && p.temperatures)
-            for (size_t i = 0; i < count; ++i) values[i] = (p.temperatures[i] - low) / (high - low);
-        if (scene.particleColor == ParticleColor::liquidFraction && p.liquidFractions)
-            values.assign(p.liquidFractions, p.liquidFractions + count);
-        if (scene.particleColor == ParticleColor::speed && p.velocities) {
-            float fastest = 0;
-            for (size_t i = 0; i < count; ++i) {
-                const float* v = p.velocities + i * 4;
-                values[i] = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-                fastest = std::fmax(fastest, values[i]);
-            }
-            if (!(speedHigh > 0)) speedHigh = std::max(fastest, 1e-3f);
-            for (float& v : values) v /= speedHigh;
-        }
-        if (scene.particleColor == ParticleColor::level && p.levels)
-            for (size_t i = 0; i < count; ++i)
-                values[i] = levelTint(p.levels[i]), ++levelCounts[std::min<size_t>(p.levels[i], kLevelColors - 1)];
-        if (scene.levelCounts != std::array<int, kLevelColors>{}) levelCounts = scene.levelCounts;
-        if (scene.particleColor == ParticleColor::featureSize && scene.featureSizes) {
-            if (!(featureHigh > 0))
-                featureHigh = std::max(*std::max_element(scene.featureSizes, scene.featureSizes + count), 1e-6f);
-            for (size_t i = 0; i < count; ++i) values[i] = 1 - scene.featureSizes[i] / featureHigh;
-        }
-        for (float& v : values) v = std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 0.0f;
+    const DataScale scale = dataScale(scene, view, values);
+    const auto particleCount = static_cast<GLsizei>(values.size());
+    if (particleCount > 0) {
         glBindVertexArray(particleArray.get());
-        upload(particleSpheres, GL_ARRAY_BUFFER, p.positions, count * 16, GL_STREAM_DRAW);
+        upload(particleSpheres, GL_ARRAY_BUFFER, scene.particles->positions, values.size() * 16, GL_STREAM_DRAW);
         attribute(0, 4, GL_FLOAT);
         glVertexAttribDivisor(0, 1);
-        upload(particleValues, GL_ARRAY_BUFFER, values.data(), count * 4, GL_STREAM_DRAW);
+        upload(particleValues, GL_ARRAY_BUFFER, values.data(), values.size() * 4, GL_STREAM_DRAW);
         attribute(1, 1, GL_FLOAT);
         glVertexAttribDivisor(1, 1);
         glBindVertexArray(0);
     }
 
     const bool dataView = view.mode != ViewMode::shaded || particleCount > 0;
-    const int modeNumber = view.mode == ViewMode::shaded ? (particleCount > 0 ? 3 : 0) : static_cast<int>(view.mode);
+    const int modeNumber =
+        view.mode == ViewMode::shaded && particleCount > 0 ? kModePlain : static_cast<int>(view.mode);
     const Vec3 dataCenter{0.055f, 0.057f, 0.062f}, dataEdge{0.03f, 0.031f, 0.034f};
 
     std::array<float, kMaxMaterials * 4> materialColors{};
@@ -651,7 +576,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         p.set("uMode", modeNumber);
         p.set("uLightScale", static_cast<float>(lightWidth) / view.width,
               static_cast<float>(lightHeight) / view.height);
-        p.set("uTemperatureRange", low, high);
+        p.set("uTemperatureRange", scale.temperatureLow, scale.temperatureHigh);
     }
     glUseProgram(0);
 
@@ -677,7 +602,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     const auto drawThings = [&](GlProgram& meshProgram, GlProgram* particleProgram, bool castersOnly,
                                 bool cull = false) {
         meshProgram.use();
-        glVertexAttrib1f(2, low);
+        glVertexAttrib1f(2, scale.temperatureLow);
         glVertexAttrib1f(3, 0);
         glVertexAttrib1f(4, 0);
         if (showSurface) {
@@ -690,7 +615,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         for (size_t i = 0; i < meshes.size(); ++i) {
             if (castersOnly && !scene.meshes[i].castsShadow) continue;
             setMaterial(meshProgram, &scene.meshes[i]);
-            if (modeNumber != 0) meshProgram.set("uMode", 3);
+            if (modeNumber != 0) meshProgram.set("uMode", kModePlain);
             drawIndexed(*meshes[i]);
         }
         if (modeNumber != 0) meshProgram.set("uMode", modeNumber);
@@ -777,7 +702,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     if (floorShown) {
         meshGeometry.use();
         setMaterial(meshGeometry, &ground);
-        meshGeometry.set("uMode", 4);
+        meshGeometry.set("uMode", kModeFloor);
         drawIndexed(floorMesh);
     }
     bindTexture(unitNormals, GL_TEXTURE_2D_MULTISAMPLE, sampleNormals.get());
@@ -884,20 +809,10 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     composite.set("uMode", dataView ? 1 : 0);
     fullscreen();
 
-    if (view.legend && dataView) {
-        const int scale = std::clamp(view.height / 270, 1, 4);
-        Image panel;
-        if (particleCount > 0 && view.mode == ViewMode::shaded) {
-            if (scene.particleColor == ParticleColor::temperature) panel = temperatureLegend(low, high, scale);
-            if (scene.particleColor == ParticleColor::liquidFraction)
-                panel = rangeLegend("liquid", "fraction", 0, 1, scale);
-            if (scene.particleColor == ParticleColor::speed) panel = rangeLegend("speed", "m/s", 0, speedHigh, scale);
-            if (scene.particleColor == ParticleColor::level) panel = levelLegend(levelCounts, scale);
-            if (scene.particleColor == ParticleColor::featureSize)
-                panel = rangeLegend("ELFS", "mm", 0, 1000 * featureHigh, scale, true);
-        } else
-            panel = view.mode == ViewMode::temperature ? temperatureLegend(low, high, scale) : phaseLegend(scale);
-        const int gap = 6 * scale;
+    drawRegions(scene.regions);
+    const int size = std::clamp(view.height / 270, 1, 4);
+    if (const Image panel = view.legend ? legendOf(scene, view, scale, size) : Image{}; panel.width > 0) {
+        const int gap = 6 * size;
         bindTexture(unitSource, GL_TEXTURE_2D, overlayTexture.get());
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, panel.width, panel.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                      panel.pixels.data());

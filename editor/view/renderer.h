@@ -6,6 +6,7 @@
 #include "view/image.h"
 #include "view/mesh.h"
 #include "view/orbit.h"
+#include "view/regions.h"
 
 #include <array>
 #include <memory>
@@ -18,15 +19,24 @@ namespace thaw::view {
 enum class ViewMode {
     shaded,      // a studio picture
     temperature, // colours for kelvin, with a scale
-    phase        // solid, mushy, liquid, with a key
+    phase,       // solid, mushy, liquid, with a key
+    liquid       // colours for the liquid fraction, with a scale
 };
 
 enum class ParticleColor {
     temperature,
     liquidFraction,
     speed,
-    level,      // a colour for each, and a key with counts
-    featureSize // Scene::featureSizes, red where something is thin
+    level, // a colour for each, and a key with counts
+    values // Scene::particleValues
+};
+
+/// Numbers of the host's own as colours of particles, and their scale.
+struct ParticleValues {
+    const float* values = nullptr; // one for each particle, read during the call only
+    std::string title, unit;       // of the scale
+    float low = 0, high = 0;       // its ends, in that unit; equal: up to the largest
+    bool reversed = false;         // the low end is the hot one
 };
 
 /// How a melt material looks. At most 16 are told apart; a higher index takes the last.
@@ -94,8 +104,9 @@ struct Scene {
     std::vector<Glow> glows;                     // the first 8 give light, the first 4 of them cast shadows
     const thawParticleView* particles = nullptr; // drawn as balls when not null
     ParticleColor particleColor = ParticleColor::temperature;
-    const float* featureSizes = nullptr; // m, of the particles; for that colour only
-    std::array<int, 4> levelCounts{};    // for the key of the levels; all 0: what is drawn is counted
+    ParticleValues particleValues;    // for that colour only
+    std::array<int, 4> levelCounts{}; // for the key of the levels; all 0: what is drawn is counted
+    std::vector<Region> regions;      // laid over the picture, fainter behind things, with a key
     Floor floor;
     KeyLight key;
     Environment environment;
@@ -113,7 +124,6 @@ struct View {
     float exposure = 1;                            // factor, > 0
     float temperatureLow = 0, temperatureHigh = 0; // K, ends of the scale; equal: from the data
     float speedHigh = 0;                           // m/s, end of the scale of particle speeds; 0: from the data
-    float featureHigh = 0;                         // m, end of the scale of feature sizes; 0: from the data
     bool legend = true;                            // scale or key in the picture, where the mode has one
 };
 

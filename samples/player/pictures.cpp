@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 #include "pictures.h"
+#include "pictures_particles.h"
 
 #include "view/context.h"
 #include "view/image.h"
@@ -52,12 +53,19 @@ view::MaterialLook lookOf(const scene::Material& material) {
 } // namespace
 
 PictureView parseView(const std::string& name, const std::string& text) {
-    if (text == "shaded") return PictureView::shaded;
-    if (text == "temperature") return PictureView::temperature;
-    if (text == "phase") return PictureView::phase;
-    if (text == "particles") return PictureView::particles;
-    if (text == "level") return PictureView::level;
-    if (text == "elfs") return PictureView::elfs;
+    constexpr std::pair<const char*, PictureView> kNames[] = {{"shaded", PictureView::shaded},
+                                                              {"temperature", PictureView::temperature},
+                                                              {"phase", PictureView::phase},
+                                                              {"liquid", PictureView::liquid},
+                                                              {"control", PictureView::control},
+                                                              {"particles", PictureView::particles},
+                                                              {"level", PictureView::level},
+                                                              {"elfs", PictureView::elfs},
+                                                              {"velocity", PictureView::velocity},
+                                                              {"exposure", PictureView::exposure},
+                                                              {"absorptivity", PictureView::absorptivity}};
+    for (const auto& [known, view] : kNames)
+        if (text == known) return view;
     throw InputError(name + ": must be " + kPictureViews + ", got '" + oneLine(text, 40) + "'");
 }
 
@@ -69,61 +77,63 @@ struct Pictures::State {
     scene::Camera camera;
     std::vector<view::CaptionedImage> taken;
 
-    // Particles as balls of half their spacing, of those that are drawn.
-    float spacing = 0;
-    bool cut = false;
-    std::vector<double> middle; // x y z, of the first picture
-    struct Balls {
-        std::vector<float> positions, temperatures, sizes;
-        std::vector<uint8_t> levels;
-        thawParticleView view{};
-    } balls;
-    void gatherBalls(thawWorld* world, PictureView mode);
+    std::vector<view::Region> regions; // of the paths and shapes
+    ParticleBalls balls;
 };
 
-void Pictures::State::gatherBalls(thawWorld* world, PictureView mode) {
-    const float* sizes = nullptr;
-    if (mode == PictureView::elfs && thawWorld_GetFeatureSizes(world, &sizes) != thawResult_ok)
-        throw RunError(std::string("no feature sizes: ") + thawWorld_GetLastError(world));
-    thawParticleView all;
-    thawWorld_GetParticles(world, &all);
-    if (middle.empty()) {
-        middle.assign(3, 0);
-        for (int i = 0; i < all.count; ++i)
-            for (size_t a = 0; a < 3; ++a)
-                middle[a] += double(all.positions[4 * size_t(i) + a]) / std::max(all.count, 1);
+namespace {
+std::vector<view::Region> regionsOf(const scene::Scene& scene, const scene::SceneMeshes& meshes) {
+    std::vector<view::Region> out;
+    const auto add = [&](std::vector<view::Region> more) { out.insert(out.end(), more.begin(), more.end()); };
+    const auto place = [&](int collider) {
+        return collider < 0 ? scene::Placement{} : scene.colliders[size_t(collider)].placement;
+    };
+    for (const scene::Path& path : scene.paths) {
+        thawPathDef def = path.def;
+        def.points = path.points.data(), def.pointCount = int32_t(path.points.size());
+        const scene::Placement at = place(path.collider);
+        if (def.enabled) add(view::pathRegions(def, at.position, at.rotation));
     }
-    // Upright, so that what runs down a side is cut along its way.
-    const double way[2] = {double(view.camera.target.x - view.camera.eye.x),
-                           double(view.camera.target.z - view.camera.eye.z)};
-    balls = {};
-    for (int i = 0; i < all.count; ++i) {
-        const float* x = all.positions + 4 * size_t(i);
-        if (cut && way[0] * (double(x[0]) - middle[0]) + way[1] * (double(x[2]) - middle[2]) < 0) continue;
-        balls.positions.insert(balls.positions.end(), x, x + 3);
-        balls.positions.push_back(0.5f * spacing * std::exp2(float(all.levels[i]) / 3));
-        balls.temperatures.push_back(all.temperatures[i]), balls.levels.push_back(all.levels[i]);
-        if (sizes) balls.sizes.push_back(sizes[i]);
+    for (size_t i = 0; i < scene.shapes.size(); ++i) {
+        const scene::FillShape& shape = scene.shapes[i];
+        thawShapeDef def = shape.def;
+        std::vector<thawVec3> points;
+        std::vector<int32_t> sizes;
+        for (const auto& contour : shape.contours) {
+            points.insert(points.end(), contour.begin(), contour.end());
+            sizes.push_back(int32_t(contour.size()));
+        }
+        def.points = points.data(), def.contourSizes = sizes.data(), def.contourCount = int32_t(sizes.size());
+        if (sizes.empty()) {
+            def.mesh = meshes.shapes[i].view();
+            def.position = shape.placement.position, def.rotation = shape.placement.rotation;
+            def.scale = shape.placement.scale;
+        }
+        const scene::Placement at = place(shape.collider);
+        if (def.enabled) add(view::shapeRegions(def, at.position, at.rotation));
     }
-    balls.view.count = int32_t(balls.levels.size());
-    balls.view.positions = balls.positions.data(), balls.view.temperatures = balls.temperatures.data();
-    balls.view.levels = balls.levels.data();
-    scene.particles = &balls.view;
-    scene.particleColor = mode == PictureView::level  ? view::ParticleColor::level
-                          : mode == PictureView::elfs ? view::ParticleColor::featureSize
-                                                      : view::ParticleColor::temperature;
-    scene.featureSizes = balls.sizes.data();
-    scene.levelCounts = {};
-    for (int i = 0; i < all.count; ++i) ++scene.levelCounts[all.levels[i]];
-    // One scale for all pictures, in whole spacings.
-    if (sizes && !(view.featureHigh > 0) && all.count > 0)
-        view.featureHigh = spacing * std::ceil(*std::max_element(sizes, sizes + all.count) / spacing);
+    return out;
 }
+
+view::ViewMode modeOf(PictureView view) {
+    switch (view) {
+    case PictureView::temperature:
+        return view::ViewMode::temperature;
+    case PictureView::phase:
+        return view::ViewMode::phase;
+    case PictureView::liquid:
+        return view::ViewMode::liquid;
+    default:
+        return view::ViewMode::shaded;
+    }
+}
+} // namespace
 
 Pictures::Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, PictureSize size, bool cut)
     : state_(std::make_unique<State>()) {
     State& s = *state_;
-    s.spacing = scene.world.particleSpacing, s.cut = cut;
+    s.balls = ParticleBalls(scene, cut);
+    s.regions = regionsOf(scene, meshes);
     std::string error;
     s.context = view::HeadlessContext::create(error);
     if (!s.context) throw RunError("no way to draw on this machine: " + oneLine(error, 300));
@@ -200,13 +210,13 @@ void Pictures::take(thawWorld* world, PictureView mode, const std::string& capti
     s.view.camera.eye = camera.eye, s.view.camera.target = camera.target;
     s.view.camera.fieldOfView = camera.fieldOfViewDegrees * std::numbers::pi_v<float> / 180.0f;
     if (s.scene.stage.empty()) s.scene.stage = view::sceneBounds(s.scene); // as it stands at first
-    s.view.mode = mode == PictureView::temperature ? view::ViewMode::temperature
-                  : mode == PictureView::phase     ? view::ViewMode::phase
-                                                   : view::ViewMode::shaded;
+    s.view.mode = modeOf(mode);
     s.scene.particles = nullptr;
-    if (mode == PictureView::particles || mode == PictureView::level || mode == PictureView::elfs) {
+    s.scene.regions.clear();
+    if (mode == PictureView::control) s.scene.regions = s.regions;
+    if (isOfParticles(mode)) {
         s.scene.surface = {};
-        s.gatherBalls(world, mode);
+        s.balls.show(world, mode, s.view.camera, s.scene);
     }
     std::string error;
     std::optional<view::Image> image = s.renderer->capture(s.scene, s.view, error);

@@ -14,11 +14,18 @@ enum class PictureView {
     shaded,
     temperature, // of the surface
     phase,
-    particles, // by temperature, as balls of their spacing
+    liquid,  // liquid fraction of the surface
+    control, // shaded, with paths and shapes over it
+    // Particles, as balls of their spacing:
+    particles, // by temperature
     level,
-    elfs // extended local feature size
+    elfs, // extended local feature size
+    velocity,
+    exposure,    // area exposed to air
+    absorptivity // of radiation, painted or the material's
 };
-inline constexpr const char* kPictureViews = "shaded, temperature, phase, particles, level or elfs";
+inline constexpr const char* kPictureViews = "shaded, temperature, phase, liquid, control, particles, level, elfs, "
+                                             "velocity, exposure or absorptivity";
 // Throws InputError.
 PictureView parseView(const std::string& name, const std::string& text);
 

@@ -174,11 +174,12 @@ TEST_CASE_FIXTURE(ViewFixture, "particles are balls in the colours of their valu
     // Levels have their own colours, thin things are red.
     const std::vector<uint8_t> levels{0, 3};
     const std::vector<float> sizes{0.001f, 0.01f};
-    particles.levels = levels.data(), scene.featureSizes = sizes.data();
+    particles.levels = levels.data();
+    scene.particleValues = {sizes.data(), "size", "m", 0, 0, true};
     CHECK(redness(view::ParticleColor::level, true) > 3 * redness(view::ParticleColor::level, false));
-    CHECK(redness(view::ParticleColor::featureSize, false) > 3 * redness(view::ParticleColor::featureSize, true));
-    v.featureHigh = 0.1f; // both are thin then
-    CHECK(redness(view::ParticleColor::featureSize, true) > 0.5 * redness(view::ParticleColor::featureSize, false));
+    CHECK(redness(view::ParticleColor::values, false) > 3 * redness(view::ParticleColor::values, true));
+    scene.particleValues.high = 0.1f; // both are thin then
+    CHECK(redness(view::ParticleColor::values, true) > 0.5 * redness(view::ParticleColor::values, false));
     // The key of the levels has a row more or less lit by what it counts.
     v.legend = true, scene.particleColor = view::ParticleColor::level;
     const Image counted = draw(scene, v);
@@ -197,6 +198,63 @@ TEST_CASE_FIXTURE(ViewFixture, "particles are balls in the colours of their valu
             if (image.at(x, y).r > image.at(x, y).b + 60) ++covered;
     const double radiusPixels = 0.02 / (2 * 0.3 * std::tan(0.2)) * image.height;
     CHECK(covered == doctest::Approx(3.14159 * radiusPixels * radiusPixels).epsilon(0.12));
+}
+
+TEST_CASE_FIXTURE(ViewFixture, "liquid view: the fraction is a scale, not three steps") {
+    view::View v = smallView(view::ViewMode::liquid);
+    v.camera.eye = v.camera.target + Vec3{0.08f, 0.22f, 0.16f};
+    const SyntheticCandle whole = candle;
+    const auto top = [&](float fraction) {
+        std::fill(candle.liquidFractions.begin(), candle.liquidFractions.end(), fraction);
+        return meanOf(draw(candle.scene(), v), 0.48, 0.45, 0.52, 0.5);
+    };
+    double last = -1;
+    for (const float fraction : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
+        const double luminance = top(fraction).luminance();
+        CHECK_MESSAGE(luminance > last + 8, fraction);
+        last = luminance;
+    }
+    candle = whole;
+    v.legend = false;
+    const Image plain = draw(candle.scene(), v);
+    v.legend = true;
+    CHECK(plain.pixels != draw(candle.scene(), v).pixels);
+}
+
+TEST_CASE_FIXTURE(ViewFixture, "paths and shapes lie over the picture, fainter behind things, with a key") {
+    view::Scene scene = candle.scene();
+    view::View v = smallView();
+    const Image plain = draw(scene, v);
+    // Two tubes across the candle, before it and behind it.
+    const auto bluer = [&](float z, double x) {
+        const Vec3 points[2] = {{-0.06f, 0.05f, z}, {0.06f, 0.05f, z}};
+        thawPathDef def;
+        thawInitPathDef(&def);
+        def.points = points, def.pointCount = 2, def.radius = 0.004f;
+        scene.regions = view::pathRegions(def, {0, 0, 0}, {0, 0, 0, 1});
+        scene.regions.pop_back(); // without its arrows
+        v.camera = {{0, 0.05f, 0.4f}, {0, 0.05f, 0}, {0, 1, 0}, 0.4f};
+        std::vector<view::Region> regions;
+        std::swap(regions, scene.regions);
+        const Mean without = meanOf(draw(scene, v), x - 0.01, 0.49, x + 0.01, 0.51);
+        std::swap(regions, scene.regions);
+        const Mean with = meanOf(draw(scene, v), x - 0.01, 0.49, x + 0.01, 0.51);
+        return (with.b - with.r) - (without.b - without.r);
+    };
+    const double before = bluer(0.04f, 0.5), behind = bluer(-0.04f, 0.5), beside = bluer(-0.04f, 0.37);
+    CHECK(before > 25);
+    CHECK(beside > 25);
+    CHECK(behind > 4);
+    CHECK(behind < 0.5 * before);
+    v.legend = false;
+    const Image bare = draw(scene, v);
+    v.legend = true;
+    const Image keyed = draw(scene, v);
+    CHECK(meanOf(bare, 0.85, 0, 1, 0.1).luminance() != meanOf(keyed, 0.85, 0, 1, 0.1).luminance());
+    scene.regions.front().mesh = nullptr;
+    CHECK_FALSE(renderer->capture(scene, v, error));
+    // What was drawn leaves nothing behind.
+    CHECK(draw(candle.scene(), smallView()).pixels == plain.pixels);
 }
 
 TEST_CASE_FIXTURE(ViewFixture, "the same scene gives the same bytes, whatever was drawn between") {
