@@ -4,9 +4,12 @@
 #include "view/image.h"
 
 #include "view/font.h"
+#include "view/part_file.h"
+#include "view/png.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
@@ -14,18 +17,22 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
 #include <stb/stb_image.h>
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#include <stb/stb_image_write.h>
 
 namespace thaw::view {
 
 bool writePng(const std::string& path, const Image& image, std::string& error) {
     if (image.width < 1 || image.height < 1) return error = "cannot write " + path + ": the picture is empty", false;
-    static_assert(sizeof(Rgba) == 4);
-    if (!stbi_write_png(path.c_str(), image.width, image.height, 4, image.pixels.data(), image.width * 4))
-        return error = "cannot write " + path, false;
-    return true;
+    PartFile place(path);
+    std::FILE* file = std::fopen(place.part().c_str(), "wb");
+    if (!file) return error = "cannot write " + path, false;
+    const bool opaque = std::all_of(image.pixels.begin(), image.pixels.end(), [](Rgba c) { return c.a == 255; });
+    const PngBytes data = packedPng(image, {0, 0, image.width, image.height}, opaque ? 3 : 4);
+    startPng(file, image.width, image.height, opaque ? 3 : 4);
+    writePngChunk(file, "IDAT", data);
+    writePngChunk(file, "IEND", {});
+    const bool bad = data.empty() || std::ferror(file) != 0;
+    if (std::fclose(file) != 0 || bad) return error = "cannot write " + path, false;
+    return place.moveToPlace(error);
 }
 
 std::optional<Image> readPng(const std::string& path, std::string& error) {
@@ -37,6 +44,7 @@ std::optional<Image> readPng(const std::string& path, std::string& error) {
         return std::nullopt;
     }
     Image image(width, height);
+    static_assert(sizeof(Rgba) == 4);
     std::memcpy(image.pixels.data(), data, image.pixels.size() * 4);
     stbi_image_free(data);
     return image;

@@ -29,7 +29,7 @@ struct Image {
     const Rgba& at(int x, int y) const { return pixels[size_t(y) * size_t(width) + size_t(x)]; }
 };
 
-/// False, with the reason in error, when the file cannot be written.
+/// False, with the reason in error, when the file cannot be written; one that was there is whole then.
 bool writePng(const std::string& path, const Image& image, std::string& error);
 /// nullopt, with the reason in error, when there is no such file or it is no picture.
 std::optional<Image> readPng(const std::string& path, std::string& error);

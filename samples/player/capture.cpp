@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
+#include "film.h"
 #include "run.h"
 
 #include <algorithm>
@@ -17,6 +18,10 @@ struct Options {
     std::string levels; // coarsest ones, a run for each
     int threads = defaultThreads();
     bool sheet = false, cut = false, quiet = false;
+    bool sequence = false;
+    std::string animation;
+    int framesPerSecond = 30;
+    double seconds = 0, hold = 1;
 };
 
 std::vector<PictureView> parseViews(const std::string& text) {
@@ -80,9 +85,32 @@ std::unique_ptr<Pictures> captureScene(const Options& o, const std::string& path
     return pictures;
 }
 
+int captureFilm(const Options& o, PictureSize size, const std::vector<PictureView>& views) {
+    if (o.scenes.size() > 1) throw scene::InputError("--sequence and --animation take one scene");
+    if (views.size() > 1) throw scene::InputError("--sequence and --animation take one view");
+    if (o.sequence && o.out.empty()) throw scene::InputError("--sequence needs --out FOLDER");
+    if (!o.sequence && !o.out.empty()) throw scene::InputError("--out: pictures beside an animation need --sequence");
+    const Film film{o.sequence ? o.out : "",
+                    o.animation,
+                    o.framesPerSecond,
+                    o.seconds,
+                    o.hold,
+                    views[0],
+                    size,
+                    o.threads,
+                    o.cut,
+                    o.quiet};
+    checkFilm(film);
+    const scene::Scene scene = scene::loadScene(o.scenes[0]);
+    shoot(film, scene, makeBudget(scene, 0.0, o.work));
+    return kExitOk;
+}
+
 int capture(const Options& o) {
     const PictureSize size = parseSize("--size", o.size);
     const std::vector<PictureView> views = parseViews(o.view);
+    if (o.sequence || !o.animation.empty()) return captureFilm(o, size, views);
+    if (o.out.empty()) throw scene::InputError("--out is required");
     std::vector<double> levels{-1};
     if (!o.levels.empty()) levels = parseNumbers("--coarsest-level", o.levels, 0, 3, "", 1, 4);
     for (const double level : levels)
@@ -117,21 +145,42 @@ void addCapture(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("capture", "Pictures of a scene at given times, the same on every machine");
     auto o = std::make_shared<Options>();
     command->add_option("scenes", o->scenes, "Scene files (JSON); several come one after the other")->required();
-    command->add_option("--at", o->at, "Times of the game, s, with commas between (default: what the scene says)");
+    CLI::Option* at =
+        command->add_option("--at", o->at, "Times of the game, s, with commas between (default: what the scene says)");
     command->add_option("--size", o->size, "Pixels of a picture")->capture_default_str();
     command->add_option("--view", o->view, std::string(kPictureViews) + "; with commas between, several")
         ->capture_default_str();
-    command->add_option("--out", o->out, "Folder for the pictures; made when it is not there")->required();
+    command->add_option("--out", o->out, "Folder for the pictures; made when it is not there");
     command->add_option("--work", o->work, "Work of a step: sub-steps,pressure,viscosity iterations[,least sub-steps]")
         ->capture_default_str();
     command->add_option("--threads", o->threads, "Threads that take part, 1 to 64; changes no picture")
         ->capture_default_str();
-    command->add_option("--coarsest-level", o->levels,
-                        "Of all bodies, 0 to 3; with commas between, a run for each, side by side on the sheet");
+    CLI::Option* levels =
+        command->add_option("--coarsest-level", o->levels,
+                            "Of all bodies, 0 to 3; with commas between, a run for each, side by side on the sheet");
     command->add_flag("--cut", o->cut, "Of particles (views particles, level, elfs), only those behind the middle");
-    command->add_flag("--sheet", o->sheet, "Also sheet.png with all pictures");
+    CLI::Option* sheet = command->add_flag("--sheet", o->sheet, "Also sheet.png with all pictures");
+    CLI::Option* sequence = command->add_flag("--sequence", o->sequence,
+                                              "Numbered pictures of all of the melt instead: frame_0000.png and so on");
+    CLI::Option* animation = command->add_option("--animation", o->animation,
+                                                 "All of the melt in one file instead, or as well: .png (APNG), .gif, "
+                                                 "or .mp4 and .webm by ffmpeg");
+    CLI::Option* fps =
+        command->add_option("--fps", o->framesPerSecond, "Frames a second of these, 1 to 60")->capture_default_str();
+    CLI::Option* seconds =
+        command->add_option("--seconds", o->seconds, "Time of the game in them, s (default: what the scene says)");
+    CLI::Option* hold =
+        command->add_option("--hold", o->hold, "Time that the last frame of an APNG or GIF stays, s, 0 to 60")
+            ->capture_default_str();
+    for (CLI::Option* moving : {sequence, animation})
+        for (CLI::Option* still : {at, levels, sheet}) moving->excludes(still);
     command->add_flag("--quiet", o->quiet, "No progress on stderr");
-    command->callback([=, &exitCode] { exitCode = capture(*o); });
+    command->callback([=, &exitCode] {
+        for (const CLI::Option* moving : {fps, seconds, hold})
+            if (*moving && !o->sequence && o->animation.empty())
+                throw scene::InputError(moving->get_name() + " needs --sequence or --animation FILE");
+        exitCode = capture(*o);
+    });
 }
 
 } // namespace thaw::player

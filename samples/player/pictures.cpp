@@ -197,7 +197,7 @@ Pictures::Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, 
 
 Pictures::~Pictures() = default;
 
-void Pictures::take(thawWorld* world, PictureView mode, const std::string& caption, const std::string& path) {
+view::Image Pictures::draw(thawWorld* world, PictureView mode) {
     State& s = *state_;
     thawSurfaceDef def;
     thawInitSurfaceDef(&def);
@@ -221,8 +221,14 @@ void Pictures::take(thawWorld* world, PictureView mode, const std::string& capti
     std::string error;
     std::optional<view::Image> image = s.renderer->capture(s.scene, s.view, error);
     if (!image) throw RunError("no picture: " + oneLine(error, 300));
-    if (!view::writePng(path, *image, error)) throw RunError(oneLine(path, 400) + ": " + oneLine(error, 200));
-    s.taken.push_back({std::move(*image), caption});
+    return std::move(*image);
+}
+
+void Pictures::take(thawWorld* world, PictureView mode, const std::string& caption, const std::string& path) {
+    view::Image image = draw(world, mode);
+    std::string error;
+    if (!view::writePng(path, image, error)) throw RunError(oneLine(path, 400) + ": " + oneLine(error, 200));
+    state_->taken.push_back({std::move(image), caption});
 }
 
 void Pictures::append(Pictures& other) {

@@ -4,6 +4,7 @@
 
 #include "args.h"
 #include "scene.h"
+#include "view/image.h"
 
 #include <memory>
 #include <string>
@@ -39,7 +40,9 @@ public:
     Pictures(const Pictures&) = delete;
     Pictures& operator=(const Pictures&) = delete;
 
-    // Draws the world as it is now into a PNG file. Throws RunError.
+    // Draws the world as it is now. Throws RunError.
+    view::Image draw(thawWorld* world, PictureView view);
+    // The same into a PNG file, and keeps it. Throws RunError.
     void take(thawWorld* world, PictureView view, const std::string& caption, const std::string& path);
     // The other's pictures come after its own; the other has none then.
     void append(Pictures& other);
