@@ -1,21 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 
-// What the table reflects: rough light without the screen's buffers. alpha: 0.1..1 by height over the floor.
-
 in vec3 vPosition;
 in vec3 vNormal;
 in vec4 vAlbedo;
 in vec3 vState;
-out vec4 oColor;
 
-void main() {
-    vec3 n = normalize(vNormal);
-    vec3 light = mix(uGround, uHorizon, 0.5 + 0.5 * n.y) + uKeyColor * 0.6 * saturate(dot(n, uKeyDirection) * 0.7 + 0.3);
-    for (int i = 0; i < uFlameCount; ++i) {
-        vec3 d = uFlamePosition[i].xyz - vPosition;
-        light += 0.25 * uFlameColor[i] / (dot(d, d) + uFlamePosition[i].w * uFlamePosition[i].w);
-    }
-    float height = saturate((vPosition.y - uFloorHeight) / (0.5 * uSceneRadius));
-    oColor = vec4(vAlbedo.rgb * light, height * 0.9 + 0.1);
-}
+void main() { writeMirror(vPosition, normalize(vNormal), vAlbedo.rgb); }

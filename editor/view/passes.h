@@ -26,7 +26,18 @@ enum Unit : int {
     unitKinds,
     unitSource,
     unitNear,
-    unitFar
+    unitFar,
+    unitSplats,
+    unitSplatDepths,
+    unitSplatAlbedos,
+    unitSplatStates,
+    unitCount
+};
+
+/// A program and what it is made of; see GlProgram::build.
+struct Recipe {
+    GlProgram& program;
+    const char *vertex, *fragment, *pass;
 };
 
 struct Target {

@@ -20,6 +20,7 @@
 #include "view/color_map.h"
 #include "view/data_scale.h"
 #include "view/passes.h"
+#include "view/splats.h"
 
 #include <algorithm>
 #include <array>
@@ -83,9 +84,9 @@ MaterialLook materialLook(thawMaterialPreset preset) {
 
 Bounds sceneBounds(const Scene& scene) {
     Bounds bounds = surfaceBounds(scene.surface);
-    if (scene.particles)
-        for (int32_t i = 0; i < scene.particles->count; ++i) {
-            const float* p = scene.particles->positions + size_t(i) * 4;
+    for (const thawParticleView* view : {scene.particles, scene.splats})
+        for (int32_t i = 0; view && i < view->count; ++i) {
+            const float* p = view->positions + size_t(i) * 4;
             bounds.add(Vec3{p[0] - p[3], p[1] - p[3], p[2] - p[3]});
             bounds.add(Vec3{p[0] + p[3], p[1] + p[3], p[2] + p[3]});
         }
@@ -107,11 +108,8 @@ struct Renderer::State {
     GlProgram meshGeometry, meshKey, meshFlame, meshMirror, particleGeometry, particleKey;
     GlProgram regionProgram, reduce, mirrorBlur, lighting, blur, classify, shadeBackdrop, shadeThing, shadeFloor,
         shadeData, shadeEdge, flame, bloomDown, bloomBlur, composite, overlay;
-    std::array<GlProgram*, 22> programs{
-        &regionProgram, &meshGeometry, &meshKey,    &meshFlame, &meshMirror, &particleGeometry,
-        &particleKey,   &reduce,       &mirrorBlur, &lighting,  &blur,       &classify,
-        &shadeBackdrop, &shadeThing,   &shadeFloor, &shadeData, &shadeEdge,  &flame,
-        &bloomDown,     &bloomBlur,    &composite,  &overlay};
+    Splats splats;
+    std::vector<GlProgram*> programs; // all of them
 
     GlVertexArray empty;
     MeshBuffers surface, floorMesh;
@@ -152,15 +150,11 @@ bool Renderer::State::build(std::string& error) {
     rendererText = text(GL_RENDERER) + " | " + text(GL_VERSION);
     glGetIntegerv(GL_MAX_SAMPLES, &maxSamples);
 
-    struct Recipe {
-        GlProgram& program;
-        const char *vertex, *fragment, *pass;
-    };
-    const Recipe recipes[] = {
-        {meshGeometry, "mesh.vert", "geometry.frag", "CAMERA_PASS"},
+    std::vector<Recipe> recipes = {
+        {meshGeometry, "mesh.vert", "surface.glsl+geometry.frag", "CAMERA_PASS"},
         {meshKey, "mesh.vert", "depth.frag", "KEY_PASS"},
         {meshFlame, "mesh.vert", "depth.frag", "FLAME_PASS"},
-        {meshMirror, "mesh.vert", "mirror.frag", "CAMERA_PASS"},
+        {meshMirror, "mesh.vert", "mirror.glsl+mirror.frag", "CAMERA_PASS"},
         {particleGeometry, "particle.vert", "sphere.glsl+particle_geometry.frag", "CAMERA_PASS"},
         {particleKey, "particle.vert", "sphere.glsl+particle_depth.frag", "KEY_PASS"},
         {reduce, "fullscreen.vert", "reduce.frag", ""},
@@ -180,7 +174,9 @@ bool Renderer::State::build(std::string& error) {
         {regionProgram, "region.vert", "region.frag", ""},
         {overlay, "fullscreen.vert", "overlay.frag", ""},
     };
+    for (const Recipe& r : splats.recipes()) recipes.push_back(r);
     for (const Recipe& r : recipes) {
+        programs.push_back(&r.program);
         if (!r.program.build(r.vertex, r.fragment, r.pass, error)) return false;
         r.program.use();
         r.program.set("uKeyMap", unitKeyMap);
@@ -198,6 +194,10 @@ bool Renderer::State::build(std::string& error) {
         r.program.set("uPicture", unitSource);
         r.program.set("uBloomNear", unitNear);
         r.program.set("uBloomFar", unitFar);
+        r.program.set("uSplats", unitSplats);
+        r.program.set("uSmooth", unitSplatDepths);
+        r.program.set("uSplatAlbedos", unitSplatAlbedos);
+        r.program.set("uSplatStates", unitSplatStates);
     }
     glUseProgram(0);
 
@@ -421,8 +421,10 @@ static bool checkScene(const Scene& scene, const View& view, std::string& error)
     }
     for (const Region& r : scene.regions)
         if (!r.mesh || r.mesh->normals.size() != r.mesh->positions.size()) return refuse("a region has no mesh");
-    if (scene.particles) {
-        const thawParticleView& p = *scene.particles;
+    if (scene.splats && !(scene.splatSpacing > 0)) return refuse("splatSpacing must be above 0");
+    for (const thawParticleView* particles : {scene.particles, scene.splats}) {
+        if (!particles) continue;
+        const thawParticleView& p = *particles;
         if (p.count < 0 || (p.count > 0 && !p.positions)) return refuse("particles lack positions");
     }
     return true;
@@ -433,7 +435,9 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     while (glGetError() != GL_NO_ERROR) {
     } // of others, before this frame
 
-    uploadSurface(scene.surface);
+    uploadSurface(scene.splats ? thawSurfaceView{} : scene.surface);
+    splats.upload(scene);
+    if (!splats.empty() && !splats.resize(width, height, error)) return false;
     for (auto& known : still) known->used = false;
     std::vector<MeshBuffers*> meshes;
     for (const MeshInstance& instance : scene.meshes) meshes.push_back(&stillMesh(instance.mesh));
@@ -442,6 +446,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
 
     // The scale of the scene: what melts, and things near it. A table of metres must not stretch the shadow map.
     Bounds bounds = surface.bounds;
+    bounds.add(splats.bounds());
     if (scene.particles)
         for (int32_t i = 0; i < scene.particles->count; ++i) {
             const float* p = scene.particles->positions + size_t(i) * 4;
@@ -578,6 +583,11 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
               static_cast<float>(lightHeight) / view.height);
         p.set("uTemperatureRange", scale.temperatureLow, scale.temperatureHigh);
     }
+    for (GlProgram* p : splats.materialPrograms()) {
+        p->use();
+        p->set4("uMaterialColor", materialColors.data(), kMaxMaterials);
+        p->set1("uMaterialRoughness", materialRoughness.data(), kMaxMaterials);
+    }
     glUseProgram(0);
 
     const auto setMaterial = [&](GlProgram& p, const MeshInstance* instance) {
@@ -647,6 +657,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     glViewport(0, 0, kKeyMapSize, kKeyMapSize);
     glClear(GL_DEPTH_BUFFER_BIT);
     drawThings(meshKey, &particleKey, true);
+    splats.drawKey();
     glDisable(GL_DEPTH_CLAMP);
     glEnable(GL_CLIP_DISTANCE0);
     glViewport(0, 0, kFlameMapSize, kFlameMapSize);
@@ -657,6 +668,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         meshFlame.use();
         meshFlame.set("uFlameLayer", i);
         drawThings(meshFlame, nullptr, true);
+        splats.drawFlame(i);
     }
     bindTexture(unitKeyMap, GL_TEXTURE_2D, keyMap.get());
     bindTexture(unitFlameMap, GL_TEXTURE_2D_ARRAY, flameMap.get());
@@ -675,6 +687,10 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         setCamera(meshMirror, viewM * flip, {camera.eye.x, y2 - camera.eye.y, camera.eye.z}, up);
         meshMirror.set("uClipFloor", 1.0f);
         drawThings(meshMirror, nullptr, false);
+        splats.mirrorProgram().use();
+        setCamera(splats.mirrorProgram(), viewM * flip, {camera.eye.x, y2 - camera.eye.y, camera.eye.z}, up);
+        splats.mirrorProgram().set("uClipFloor", 1.0f);
+        splats.drawMirror();
     }
     glDisable(GL_CLIP_DISTANCE0);
     bindTexture(unitMirror, GL_TEXTURE_2D, mirror.texture.get());
@@ -686,6 +702,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     glEnable(GL_DEPTH_TEST);
 
     // Geometry.
+    splats.prepare();
     MeshInstance ground;
     ground.position = {center.x, scene.floor.height, center.z};
     ground.scale = floorRadius;
@@ -694,10 +711,13 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     glViewport(0, 0, view.width, view.height);
     glEnable(GL_MULTISAMPLE);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    meshGeometry.use();
     const Vec3 phases[3] = {phaseColor(Phase::solid), phaseColor(Phase::mushy), phaseColor(Phase::liquid)};
-    meshGeometry.set3("uPhaseColor", &phases[0].x, 3);
-    meshGeometry.set("uPhaseLimits", kSolidBelow, kLiquidAbove);
+    for (GlProgram* p : {&meshGeometry, &splats.resolveProgram()}) {
+        p->use();
+        p->set3("uPhaseColor", &phases[0].x, 3);
+        p->set("uPhaseLimits", kSolidBelow, kLiquidAbove);
+    }
+    splats.resolve(samples);
     drawThings(meshGeometry, &particleGeometry, false, true);
     if (floorShown) {
         meshGeometry.use();
@@ -826,7 +846,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         glViewport(0, 0, view.width, view.height);
     }
 
-    for (int unit = unitFar; unit >= 0; --unit) {
+    for (int unit = unitCount - 1; unit >= 0; --unit) {
         bindTexture(unit, GL_TEXTURE_2D, 0);
         glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
         if (unit == unitFlameMap) glBindTexture(GL_TEXTURE_2D_ARRAY, 0);

@@ -101,7 +101,11 @@ struct Scene {
     thawSurfaceView surface{};           // read during the call only; may be empty
     std::vector<MaterialLook> materials; // by index of surface.materials; empty: wax
     std::vector<MeshInstance> meshes;
-    std::vector<Glow> glows;                     // the first 8 give light, the first 4 of them cast shadows
+    std::vector<Glow> glows; // the first 8 give light, the first 4 of them cast shadows
+    /// The melt from its particles, in screen space, in place of surface when not null: positions, normals,
+    /// temperatures, liquidFractions, materials and levels are read, during the call only.
+    const thawParticleView* splats = nullptr;
+    float splatSpacing = 0.002f;                 // m, of those at level 0; > 0
     const thawParticleView* particles = nullptr; // drawn as balls when not null
     ParticleColor particleColor = ParticleColor::temperature;
     ParticleValues particleValues;    // for that colour only

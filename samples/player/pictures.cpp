@@ -53,17 +53,13 @@ view::MaterialLook lookOf(const scene::Material& material) {
 } // namespace
 
 PictureView parseView(const std::string& name, const std::string& text) {
-    constexpr std::pair<const char*, PictureView> kNames[] = {{"shaded", PictureView::shaded},
-                                                              {"temperature", PictureView::temperature},
-                                                              {"phase", PictureView::phase},
-                                                              {"liquid", PictureView::liquid},
-                                                              {"control", PictureView::control},
-                                                              {"particles", PictureView::particles},
-                                                              {"level", PictureView::level},
-                                                              {"elfs", PictureView::elfs},
-                                                              {"velocity", PictureView::velocity},
-                                                              {"exposure", PictureView::exposure},
-                                                              {"absorptivity", PictureView::absorptivity}};
+    constexpr std::pair<const char*, PictureView> kNames[] = {
+        {"shaded", PictureView::shaded},       {"temperature", PictureView::temperature},
+        {"phase", PictureView::phase},         {"liquid", PictureView::liquid},
+        {"control", PictureView::control},     {"splats", PictureView::splats},
+        {"particles", PictureView::particles}, {"level", PictureView::level},
+        {"elfs", PictureView::elfs},           {"velocity", PictureView::velocity},
+        {"exposure", PictureView::exposure},   {"absorptivity", PictureView::absorptivity}};
     for (const auto& [known, view] : kNames)
         if (text == known) return view;
     throw InputError(name + ": must be " + kPictureViews + ", got '" + oneLine(text, 40) + "'");
@@ -133,6 +129,7 @@ Pictures::Pictures(const scene::Scene& scene, const scene::SceneMeshes& meshes, 
     : state_(std::make_unique<State>()) {
     State& s = *state_;
     s.balls = ParticleBalls(scene, cut);
+    s.scene.splatSpacing = scene.world.particleSpacing;
     s.regions = regionsOf(scene, meshes);
     std::string error;
     s.context = view::HeadlessContext::create(error);
@@ -214,6 +211,12 @@ view::Image Pictures::draw(thawWorld* world, PictureView mode) {
     s.scene.particles = nullptr;
     s.scene.regions.clear();
     if (mode == PictureView::control) s.scene.regions = s.regions;
+    thawParticleView melt;
+    s.scene.splats = nullptr;
+    if (mode == PictureView::splats) {
+        thawWorld_GetParticles(world, &melt);
+        s.scene.splats = &melt;
+    }
     if (isOfParticles(mode)) {
         s.scene.surface = {};
         s.balls.show(world, mode, s.view.camera, s.scene);

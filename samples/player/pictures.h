@@ -17,6 +17,7 @@ enum class PictureView {
     phase,
     liquid,  // liquid fraction of the surface
     control, // shaded, with paths and shapes over it
+    splats,  // shaded, the melt from its particles in screen space
     // Particles, as balls of their spacing:
     particles, // by temperature
     level,
@@ -25,8 +26,9 @@ enum class PictureView {
     exposure,    // area exposed to air
     absorptivity // of radiation, painted or the material's
 };
-inline constexpr const char* kPictureViews = "shaded, temperature, phase, liquid, control, particles, level, elfs, "
-                                             "velocity, exposure or absorptivity";
+inline constexpr const char* kPictureViews =
+    "shaded, temperature, phase, liquid, control, splats, particles, level, elfs, "
+    "velocity, exposure or absorptivity";
 // Throws InputError.
 PictureView parseView(const std::string& name, const std::string& text);
 

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+
+#include "view/splats.h"
+
+#include <algorithm>
+
+namespace thaw::view {
+
+namespace {
+
+constexpr float kShadowSize = 0.8f;  // of the axes: what is lit must not lie behind beads that the filter has taken off
+constexpr float kColorSize = 1.6f;   // from where colours come
+constexpr float kFilterReach = 2.0f; // spacings
+
+} // namespace
+
+std::vector<Recipe> Splats::recipes() {
+    return {{depth_, "splat.vert", "splat.glsl+splat_depth.frag", "CAMERA_PASS"},
+            {color_, "splat.vert", "splat.glsl+splat_color.frag", "CAMERA_PASS"},
+            {key_, "splat.vert", "splat.glsl+splat_shadow.frag", "KEY_PASS"},
+            {flame_, "splat.vert", "splat.glsl+splat_shadow.frag", "FLAME_PASS"},
+            {mirror_, "splat.vert", "splat.glsl+mirror.glsl+splat_mirror.frag", "CAMERA_PASS"},
+            {filter_, "fullscreen.vert", "splat_filter.frag", ""},
+            {resolve_, "fullscreen.vert", "surface.glsl+splat_resolve.frag", ""}};
+}
+
+bool Splats::resize(int width, int height, std::string& error) {
+    if (width == width_ && height == height_) return true;
+    width_ = height_ = 0;
+    if (!makeTarget(splats_, GL_RG32F, width, height, GL_NEAREST, nullptr, error)) return false;
+    for (Target& target : smooth_)
+        if (!makeTarget(target, GL_R32F, width, height, GL_NEAREST, nullptr, error)) return false;
+    // Colours change from particle to particle and not within one.
+    const int w = (width + 1) / 2, h = (height + 1) / 2;
+    if (!makeTarget(colors_, GL_RGBA16F, w, h, GL_LINEAR, nullptr, error)) return false;
+    makeTexture(carried_, GL_RGBA16F, w, h, GL_LINEAR);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, carried_.get(), 0);
+    const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glDrawBuffers(2, both);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return error = "the driver refuses the buffers of the splats", false;
+    width_ = width, height_ = height;
+    return true;
+}
+
+void Splats::upload(const Scene& scene) {
+    bounds_ = {};
+    count_ = scene.splats ? std::max(scene.splats->count, 0) : 0;
+    if (empty()) return;
+    const thawParticleView& p = *scene.splats;
+    spacing_ = scene.splatSpacing;
+    makeSplatShapes(p, spacing_, shapes_);
+    centerData_.clear(), axisData_.clear(), stateData_.clear();
+    for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
+        const SplatShape& shape = shapes_[i];
+        const Vec3 x = shape.center, n = shape.axis;
+        centerData_.insert(centerData_.end(), {x.x, x.y, x.z, shape.along});
+        axisData_.insert(axisData_.end(), {n.x, n.y, n.z, shape.out / shape.along});
+        stateData_.insert(stateData_.end(),
+                          {p.temperatures ? p.temperatures[i] : 0, p.liquidFractions ? p.liquidFractions[i] : 0,
+                           p.materials ? static_cast<float>(p.materials[i]) : 0});
+        bounds_.add(x);
+    }
+    glBindVertexArray(array_.get());
+    const auto stream = [](GLuint index, GlBuffer& buffer, const std::vector<float>& data, GLint components) {
+        view::upload(buffer, GL_ARRAY_BUFFER, data.data(), data.size() * 4, GL_STREAM_DRAW);
+        attribute(index, components, GL_FLOAT);
+        glVertexAttribDivisor(index, 1);
+    };
+    stream(0, centers_, centerData_, 4);
+    stream(1, axes_, axisData_, 4);
+    stream(2, states_, stateData_, 3);
+    glBindVertexArray(0);
+}
+
+void Splats::draw(GlProgram& program, float size) {
+    program.use();
+    program.set("uSplatSize", size);
+    glBindVertexArray(array_.get());
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
+}
+
+void Splats::fullscreen() {
+    glBindVertexArray(empty_.get());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Splats::prepare() {
+    if (empty()) return;
+    glDisable(GL_DEPTH_TEST);
+    glBindFramebuffer(GL_FRAMEBUFFER, splats_.framebuffer.get());
+    glViewport(0, 0, width_, height_);
+    const float nothing[4] = {-1e9f, -3, 0, 0}, zero[4] = {0, 0, 0, 0};
+    glClearBufferfv(GL_COLOR, 0, nothing);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_MAX);
+    draw(depth_, 1);
+    glBlendEquation(GL_FUNC_ADD);
+    glDisable(GL_BLEND);
+
+    filter_.use();
+    filter_.set("uSpacing", spacing_);
+    for (int pass = 0; pass < 4; ++pass) {
+        const Target &from = pass == 0 ? splats_ : smooth_[1 - pass % 2], &to = smooth_[pass % 2];
+        glBindFramebuffer(GL_FRAMEBUFFER, const_cast<Target&>(to).framebuffer.get());
+        bindTexture(unitSource, GL_TEXTURE_2D, const_cast<Target&>(from).texture.get());
+        filter_.set("uFirst", pass == 0 ? 1 : 0);
+        filter_.set("uStep", pass % 2 == 0 ? 1 : 0, pass % 2);
+        filter_.set("uFilterReach", pass < 2 ? kFilterReach : 0.5f * kFilterReach);
+        fullscreen();
+    }
+
+    bindTexture(unitSplatDepths, GL_TEXTURE_2D, smooth_[1].texture.get());
+    bindTexture(unitSplats, GL_TEXTURE_2D, splats_.texture.get());
+    glBindFramebuffer(GL_FRAMEBUFFER, colors_.framebuffer.get());
+    glViewport(0, 0, colors_.width, colors_.height);
+    glClearBufferfv(GL_COLOR, 0, zero);
+    glClearBufferfv(GL_COLOR, 1, zero);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    color_.use();
+    color_.set("uSpacing", spacing_);
+    color_.set("uTargetSize", static_cast<float>(colors_.width), static_cast<float>(colors_.height));
+    draw(color_, kColorSize);
+    glDisable(GL_BLEND);
+    bindTexture(unitSplatAlbedos, GL_TEXTURE_2D, colors_.texture.get());
+    bindTexture(unitSplatStates, GL_TEXTURE_2D, carried_.get());
+    glEnable(GL_DEPTH_TEST);
+}
+
+void Splats::drawKey() {
+    if (!empty()) draw(key_, kShadowSize);
+}
+
+void Splats::drawFlame(int layer) {
+    if (empty()) return;
+    flame_.use();
+    flame_.set("uFlameLayer", layer);
+    draw(flame_, kShadowSize);
+}
+
+void Splats::drawMirror() {
+    if (!empty()) draw(mirror_, 1);
+}
+
+void Splats::resolve(int samples) {
+    if (empty()) return;
+    resolve_.use();
+    resolve_.set("uOutline", 0);
+    fullscreen();
+    resolve_.set("uOutline", 1);
+    glEnable(GL_SAMPLE_MASK);
+    for (int s = 0; s < samples; ++s) {
+        float place[2] = {0.5f, 0.5f};
+        glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(s), place);
+        resolve_.set("uSampleOffset", place[0] - 0.5f, place[1] - 0.5f);
+        glSampleMaski(0, 1u << s);
+        fullscreen();
+    }
+    glDisable(GL_SAMPLE_MASK);
+}
+
+} // namespace thaw::view
