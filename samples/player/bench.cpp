@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench_control.h"
 #include "bench_levels.h"
+#include "bench_pictures.h"
 #include "bench_registry.h"
 #include "bench_surface.h"
 #include "busy.h"
@@ -128,6 +129,7 @@ void addBench(CLI::App& app, int& exitCode) {
     addBenchLevels(*bench, exitCode);
     addBenchControl(*bench, exitCode);
     addBenchSurface(*bench, exitCode);
+    addBenchPictures(*bench, exitCode);
     addBenchBudget(*bench, exitCode);
     std::vector<BenchEntry> entries = benchEntries();
     std::sort(entries.begin(), entries.end(),

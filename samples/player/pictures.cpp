@@ -52,17 +52,17 @@ view::MaterialLook lookOf(const scene::Material& material) {
 }
 } // namespace
 
+std::string pictureViews() {
+    std::string names;
+    for (size_t i = 0; i < std::size(kNamedViews); ++i)
+        names += std::string(i == 0 ? "" : i + 1 < std::size(kNamedViews) ? ", " : " or ") + kNamedViews[i].name;
+    return names;
+}
+
 PictureView parseView(const std::string& name, const std::string& text) {
-    constexpr std::pair<const char*, PictureView> kNames[] = {
-        {"shaded", PictureView::shaded},       {"temperature", PictureView::temperature},
-        {"phase", PictureView::phase},         {"liquid", PictureView::liquid},
-        {"control", PictureView::control},     {"splats", PictureView::splats},
-        {"particles", PictureView::particles}, {"level", PictureView::level},
-        {"elfs", PictureView::elfs},           {"velocity", PictureView::velocity},
-        {"exposure", PictureView::exposure},   {"absorptivity", PictureView::absorptivity}};
-    for (const auto& [known, view] : kNames)
-        if (text == known) return view;
-    throw InputError(name + ": must be " + kPictureViews + ", got '" + oneLine(text, 40) + "'");
+    for (const NamedView& known : kNamedViews)
+        if (text == known.name) return known.view;
+    throw InputError(name + ": must be " + pictureViews() + ", got '" + oneLine(text, 40) + "'");
 }
 
 struct Pictures::State {

@@ -26,9 +26,19 @@ enum class PictureView {
     exposure,    // area exposed to air
     absorptivity // of radiation, painted or the material's
 };
-inline constexpr const char* kPictureViews =
-    "shaded, temperature, phase, liquid, control, splats, particles, level, elfs, "
-    "velocity, exposure or absorptivity";
+struct NamedView {
+    const char* name;
+    PictureView view;
+};
+inline constexpr NamedView kNamedViews[] = {
+    {"shaded", PictureView::shaded},       {"temperature", PictureView::temperature},
+    {"phase", PictureView::phase},         {"liquid", PictureView::liquid},
+    {"control", PictureView::control},     {"splats", PictureView::splats},
+    {"particles", PictureView::particles}, {"level", PictureView::level},
+    {"elfs", PictureView::elfs},           {"velocity", PictureView::velocity},
+    {"exposure", PictureView::exposure},   {"absorptivity", PictureView::absorptivity}};
+// Their names in words: "shaded, ... or absorptivity".
+std::string pictureViews();
 // Throws InputError.
 PictureView parseView(const std::string& name, const std::string& text);
 

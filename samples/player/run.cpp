@@ -67,7 +67,7 @@ void RunOptions::addTo(CLI::App& command) {
                        "Folder for table.txt, table.json, pictures and meshes; made when it is not there");
     command.add_option("--pictures", pictures,
                        "How many pictures to spread over the run, the first and last frame among them");
-    command.add_option("--view", view, std::string("What pictures show: ") + kPictureViews)->capture_default_str();
+    command.add_option("--view", view, "What pictures show: " + pictureViews())->capture_default_str();
     command.add_option("--picture-size", size, "Pixels of a picture")->capture_default_str();
     command.add_option("--mesh", mesh, "Write the last surface: ply or obj");
     command.add_option("--json", json, "File for the report, for programs");
