@@ -21,8 +21,7 @@ float depthAt(ivec2 at) {
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(uSource, 0) - 1;
     float z = depthAt(at);
-    oColor = vec4(z);
-    if (z <= 0.0) return;
+    if (z <= 0.0) discard;
     const int kTaps = 10;
     float reach = uFilterReach * uSpacing * uPictureSize.y / (2.0 * length(uCameraUp) * z);
     int stride = max(1, int(ceil(reach / float(kTaps)))), taps = clamp(int(reach / float(stride) + 0.5), 1, kTaps);

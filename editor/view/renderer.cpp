@@ -702,7 +702,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     glEnable(GL_DEPTH_TEST);
 
     // Geometry.
-    splats.prepare();
+    splats.prepare(projection * viewM);
     MeshInstance ground;
     ground.position = {center.x, scene.floor.height, center.z};
     ground.scale = floorRadius;

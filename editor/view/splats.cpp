@@ -4,6 +4,7 @@
 #include "view/splats.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace thaw::view {
 
@@ -86,8 +87,41 @@ void Splats::fullscreen() {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Splats::prepare() {
+// What the melt can cover on screen, with room for the filter; all when some of it is beside the eye.
+void Splats::frame(const Mat4& worldToClip) {
+    const float room = 10 * spacing_; // coarse particles are twice as large
+    float lower[2] = {INFINITY, INFINITY}, upper[2] = {-INFINITY, -INFINITY};
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p{corner & 1 ? bounds_.upper.x + room : bounds_.lower.x - room,
+                     corner & 2 ? bounds_.upper.y + room : bounds_.lower.y - room,
+                     corner & 4 ? bounds_.upper.z + room : bounds_.lower.z - room};
+        const auto row = [&](size_t r) {
+            const auto& m = worldToClip.m;
+            return m[r] * p.x + m[4 + r] * p.y + m[8 + r] * p.z + m[12 + r];
+        };
+        const float w = row(3);
+        if (!(w > 1e-6f)) {
+            scissor_ = {0, 0, width_, height_};
+            return;
+        }
+        for (size_t axis = 0; axis < 2; ++axis)
+            lower[axis] = std::fmin(lower[axis], row(axis) / w), upper[axis] = std::fmax(upper[axis], row(axis) / w);
+    }
+    const int sizes[2] = {width_, height_};
+    for (size_t axis = 0; axis < 2; ++axis) {
+        const auto size = static_cast<float>(sizes[axis]);
+        const float a = std::clamp((0.5f + 0.5f * lower[axis]) * size, 0.0f, size);
+        const float b = std::clamp((0.5f + 0.5f * upper[axis]) * size, 0.0f, size);
+        scissor_[axis] = static_cast<int>(a) & ~1;
+        scissor_[axis + 2] = static_cast<int>(std::ceil(b)) - scissor_[axis];
+    }
+}
+
+void Splats::prepare(const Mat4& worldToClip) {
     if (empty()) return;
+    frame(worldToClip);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(scissor_[0], scissor_[1], scissor_[2], scissor_[3]);
     glDisable(GL_DEPTH_TEST);
     glBindFramebuffer(GL_FRAMEBUFFER, splats_.framebuffer.get());
     glViewport(0, 0, width_, height_);
@@ -105,6 +139,7 @@ void Splats::prepare() {
         const Target &from = pass == 0 ? splats_ : smooth_[1 - pass % 2], &to = smooth_[pass % 2];
         glBindFramebuffer(GL_FRAMEBUFFER, const_cast<Target&>(to).framebuffer.get());
         bindTexture(unitSource, GL_TEXTURE_2D, const_cast<Target&>(from).texture.get());
+        if (pass < 2) glClearBufferfv(GL_COLOR, 0, zero); // what it discards; the same pixels later
         filter_.set("uFirst", pass == 0 ? 1 : 0);
         filter_.set("uStep", pass % 2 == 0 ? 1 : 0, pass % 2);
         filter_.set("uFilterReach", pass < 2 ? kFilterReach : 0.5f * kFilterReach);
@@ -115,6 +150,7 @@ void Splats::prepare() {
     bindTexture(unitSplats, GL_TEXTURE_2D, splats_.texture.get());
     glBindFramebuffer(GL_FRAMEBUFFER, colors_.framebuffer.get());
     glViewport(0, 0, colors_.width, colors_.height);
+    glScissor(scissor_[0] / 2, scissor_[1] / 2, (scissor_[2] + 1) / 2, (scissor_[3] + 1) / 2);
     glClearBufferfv(GL_COLOR, 0, zero);
     glClearBufferfv(GL_COLOR, 1, zero);
     glEnable(GL_BLEND);
@@ -127,6 +163,7 @@ void Splats::prepare() {
     bindTexture(unitSplatAlbedos, GL_TEXTURE_2D, colors_.texture.get());
     bindTexture(unitSplatStates, GL_TEXTURE_2D, carried_.get());
     glEnable(GL_DEPTH_TEST);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 void Splats::drawKey() {
@@ -147,6 +184,8 @@ void Splats::drawMirror() {
 void Splats::resolve(int samples) {
     if (empty()) return;
     resolve_.use();
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(scissor_[0], scissor_[1], scissor_[2], scissor_[3]);
     resolve_.set("uOutline", 0);
     fullscreen();
     resolve_.set("uOutline", 1);
@@ -158,6 +197,7 @@ void Splats::resolve(int samples) {
         glSampleMaski(0, 1u << s);
         fullscreen();
     }
+    glDisable(GL_SCISSOR_TEST);
     glDisable(GL_SAMPLE_MASK);
 }
 

@@ -7,6 +7,7 @@
 #include "view/renderer.h"
 #include "view/splat_shapes.h"
 
+#include <array>
 #include <vector>
 
 namespace thaw::view {
@@ -24,7 +25,7 @@ public:
     const Bounds& bounds() const { return bounds_; }
 
     /// Makes the smoothed depths and what the surface carries. Changes framebuffer and viewport.
-    void prepare();
+    void prepare(const Mat4& worldToClip);
     /// Each sets its program and draws into the bound framebuffer.
     void drawKey();
     void drawFlame(int layer);
@@ -40,6 +41,7 @@ public:
 private:
     void draw(GlProgram& program, float size);
     void fullscreen();
+    void frame(const Mat4& worldToClip);
 
     GlProgram depth_, color_, key_, flame_, mirror_, filter_, resolve_;
     GlVertexArray array_, empty_;
@@ -48,6 +50,7 @@ private:
     GlTexture carried_;
     int width_ = 0, height_ = 0, count_ = 0;
     float spacing_ = 0;
+    std::array<int, 4> scissor_{}; // x y width height
     Bounds bounds_;
     std::vector<SplatShape> shapes_;
     std::vector<float> centerData_, axisData_, stateData_;
