@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 
-// Properties of pictures that hold on every renderer, and one golden picture for the renderer it was made with.
+// Properties of pictures that hold on every renderer.
 
 #include "pictures.h"
 #include "view/color_map.h"
@@ -9,9 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
 using namespace thaw;
 using namespace thaw::test;
@@ -313,34 +310,4 @@ TEST_CASE_FIXTURE(ViewFixture, "what cannot be drawn is refused with the reason"
     refused(scene, smallView(), "mesh");
     // And it still draws.
     CHECK(draw(candle.scene(), smallView()).width == 320);
-}
-
-// THAW_UPDATE_GOLDEN=1 writes the golden picture and the name of the renderer anew.
-TEST_CASE_FIXTURE(ViewFixture, "golden picture") {
-    const std::string folder = std::string(THAW_SOURCE_DIR) + "/tests/capture/golden/";
-    const std::string picturePath = folder + "candle.png", keyPath = folder + "candle.renderer.txt";
-    const Image image = draw(candle.scene(), smallView());
-    if (const char* update = std::getenv("THAW_UPDATE_GOLDEN"); update && *update == '1') {
-        REQUIRE_MESSAGE(view::writePng(picturePath, image, error), error);
-        std::ofstream(keyPath) << renderer->rendererString() << "\n";
-        MESSAGE("wrote " << picturePath);
-        return;
-    }
-    std::string key;
-    std::ifstream keyFile(keyPath);
-    REQUIRE(std::getline(keyFile, key));
-    if (key != renderer->rendererString()) {
-        MESSAGE("the golden picture is of \"" << key << "\", this is \"" << renderer->rendererString()
-                                              << "\": only properties were checked");
-        return;
-    }
-    const std::optional<Image> golden = view::readPng(picturePath, error);
-    REQUIRE_MESSAGE(golden, error);
-    const view::ImageDifference difference = view::compare(image, *golden, 6);
-    REQUIRE(difference.sameSize);
-    if (difference.shareOver > 0.002) {
-        CHECK(view::writePng(artefact("candle.actual.png"), image, error));
-        CHECK(view::writePng(artefact("candle.difference.png"), difference.picture, error));
-    }
-    CHECK_MESSAGE(difference.shareOver <= 0.002, "see " << artefact("candle.actual.png"));
 }

@@ -147,4 +147,36 @@ view::Camera SyntheticCandle::camera(float aspect) {
     return view::frame(bounds, orbit, aspect);
 }
 
+SyntheticParticles::SyntheticParticles() {
+    const int across = int(kRadius / kSpacing) + 1, up = int(kHeight / kSpacing);
+    for (int j = 0; j < up; ++j)
+        for (int k = -across; k <= across; ++k)
+            for (int i = -across; i <= across; ++i) {
+                const Vec3 p{float(i) * kSpacing, (float(j) + 0.5f) * kSpacing, float(k) * kSpacing};
+                const float r = std::sqrt(p.x * p.x + p.z * p.z), inward = kRadius - r;
+                if (inward < 0) continue;
+                const bool wall = inward < kSpacing, top = j == up - 1;
+                Vec3 n{wall && r > 0 ? p.x / r : 0, top ? 1.0f : 0.0f, wall && r > 0 ? p.z / r : 0};
+                if (wall || top) n = view::normalize(n);
+                const uint8_t level = inward > 0.012f && j > 2 && j < up - 4 ? 3 : 0;
+                positions.insert(positions.end(), {p.x, p.y, p.z, 0.5f * kSpacing * std::exp2(float(level) / 3)});
+                const float heat = smooth(0.6f * kHeight, kHeight, p.y);
+                velocities.insert(velocities.end(), {0, -0.1f * heat * heat, 0, 1});
+                normals.insert(normals.end(), {n.x, n.y, n.z, (float(wall) + float(top)) * kSpacing * kSpacing});
+                temperatures.push_back(296 + 50 * heat);
+                liquidFractions.push_back(smooth(322, 336, temperatures.back()));
+                sizes.push_back(1000 * (inward + kSpacing));
+                materials.push_back(0), levels.push_back(level);
+            }
+}
+
+thawParticleView SyntheticParticles::view() const {
+    thawParticleView v{};
+    v.count = int32_t(temperatures.size());
+    v.positions = positions.data(), v.velocities = velocities.data(), v.normals = normals.data();
+    v.temperatures = temperatures.data(), v.liquidFractions = liquidFractions.data();
+    v.materials = materials.data(), v.levels = levels.data();
+    return v;
+}
+
 } // namespace thaw::test

@@ -26,4 +26,14 @@ struct SyntheticCandle {
     static view::Camera camera(float aspect);
 };
 
+/// The same candle as particles on a lattice, without drips: coarse inside, hot, liquid and moving at the top.
+struct SyntheticParticles {
+    static constexpr float kSpacing = 0.004f; // m
+    std::vector<float> positions, velocities, normals, temperatures, liquidFractions, sizes;
+    std::vector<uint8_t> materials, levels;
+
+    SyntheticParticles();
+    thawParticleView view() const;
+};
+
 } // namespace thaw::test
