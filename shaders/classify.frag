@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 
-// What a pixel shows, for the passes of shade.frag: its kind, and 4 more where its samples differ.
+// What a pixel shows, for the passes of shade.frag: its kind, and KIND_EDGE more where its samples differ.
 
 in vec2 vUv;
 uniform sampler2DMS uNormals, uAlbedos, uDepths;
@@ -11,6 +11,7 @@ out vec4 oColor;
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     float kind = texelFetch(uNormals, at, 0).w;
+    kind = clearDepth(kind) > 0.0 ? KIND_CLEAR : floor(kind + 0.01);
     vec4 first = texelFetch(uAlbedos, at, 0);
     float z = viewDepth(texelFetch(uDepths, at, 0).r), spread = 0.0, change = 0.0;
     for (int s = 1; s < uSampleCount; ++s) {
@@ -20,5 +21,5 @@ void main() {
     }
     // On the floor depth differs within a pixel of itself; its edges show in the colours.
     bool edge = change > 0.06 || (spread > 0.012 * uSceneRadius && z < 0.4 * uNearFar.y && kind != KIND_FLOOR);
-    oColor = vec4((kind + (edge ? 4.0 : 0.0)) / 255.0);
+    oColor = vec4((kind + (edge ? KIND_EDGE : 0.0)) / 255.0);
 }

@@ -32,6 +32,15 @@ uniform sampler2DArray uFlameMap;
 
 // What a pixel of the geometry buffer shows.
 const float KIND_NOTHING = 0.0, KIND_THING = 1.0, KIND_FLOOR = 2.0, KIND_DATA = 3.0;
+// Among the kinds of pixels that are shaded together: a thing that is clear.
+const float KIND_CLEAR = 4.0, KIND_EDGE = 8.0;
+
+// How deep one can see into a thing, m: 0.45 of a share goes onto its kind in the buffer.
+const float CLEAR_SCALE = 0.05;
+float clearDepth(float kind) {
+    float share = fract(kind) / 0.45;
+    return share < 0.02 ? 0.0 : CLEAR_SCALE * share / max(1.0 - share, 0.01);
+}
 
 float saturate(float x) { return clamp(x, 0.0, 1.0); }
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }

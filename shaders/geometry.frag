@@ -8,10 +8,11 @@ in vec3 vPosition;
 in vec3 vNormal;
 in vec4 vAlbedo;
 in vec3 vState;
+in vec2 vClear;
 
 uniform vec2 uTemperatureRange; // K
 
 void main() {
     float t = (vState.x - uTemperatureRange.x) / max(uTemperatureRange.y - uTemperatureRange.x, 1e-6);
-    writeSurface(vAlbedo.rgb, vAlbedo.w, vec3(t, vState.yz), normalize(vNormal));
+    writeSurface(vAlbedo.rgb, vAlbedo.w, vec3(t, vState.yz), vClear, normalize(vNormal));
 }

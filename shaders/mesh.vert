@@ -13,6 +13,7 @@ layout(location = 5) in vec4 aShares;    // of each; nothing: all of the first
 uniform mat4 uModel;
 uniform vec4 uMaterialColor[MAX_MATERIALS]; // w: translucency
 uniform float uMaterialRoughness[MAX_MATERIALS];
+uniform vec2 uMaterialClear[MAX_MATERIALS]; // shares for clearDepth, of the solid and the melt
 uniform int uFlameLayer;
 uniform float uClipFloor; // 1: drop what is under the floor
 
@@ -20,6 +21,7 @@ out vec3 vPosition;
 out vec3 vNormal;
 out vec4 vAlbedo; // w: translucency
 out vec3 vState;  // temperature, liquid fraction, roughness
+out vec2 vClear;
 
 void main() {
     vec4 world = uModel * vec4(aPosition, 1.0);
@@ -36,11 +38,13 @@ void main() {
     vNormal = mat3(uModel) * aNormal;
     vec4 shares = aShares.x > 0.0 ? aShares : vec4(1.0, 0.0, 0.0, 0.0);
     vAlbedo = vec4(0.0);
+    vClear = vec2(0.0);
     float roughness = 0.0;
     for (int k = 0; k < 4; ++k) {
         int material = clamp(int(aMaterials[k] + 0.5), 0, MAX_MATERIALS - 1);
         vAlbedo += shares[k] * uMaterialColor[material];
         roughness += shares[k] * uMaterialRoughness[material];
+        vClear += shares[k] * uMaterialClear[material];
     }
     vState = vec3(aTemperature, aLiquid, roughness);
     gl_ClipDistance[0] = mix(1.0, world.y - uFloorHeight, uClipFloor);

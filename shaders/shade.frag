@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 
-// Puts light on the geometry buffer, one kind of pixel per pass: BACKDROP_PASS, THING_PASS, FLOOR_PASS, DATA_PASS, and
+// Puts light on the geometry buffer, one kind of pixel per pass: BACKDROP_PASS, THING_PASS, CLEAR_PASS, FLOOR_PASS, DATA_PASS, and
 // EDGE_PASS for pixels whose samples differ and are shaded one by one. The passes are for software rasterisers: they run
 // both sides of an if for every pixel, but leave a block of pixels when all of it is discarded.
 
@@ -13,6 +13,9 @@ uniform vec2 uLightScale, uPictureSize; // pixels of the light buffers per pixel
 uniform vec3 uFloorCenter;
 uniform float uReflectivity, uFadeRadius;
 uniform int uPlain; // 1: beside a data view, without studio light
+uniform sampler2D uBehind, uBack; // the scene without the melt, alpha: something is there; depth of the melt's back
+uniform vec3 uFloorColor;
+uniform int uFloorShown;
 out vec4 oColor;
 
 struct SlowLight {
@@ -85,6 +88,52 @@ vec3 thing(vec3 p, vec3 n, SlowLight slow, vec3 albedo, float translucency, floa
     return color * (1.0 - fresnel) + mirror + min(sparkle, vec3(5.0));
 }
 
+// What is seen through a clear thing: along the ray that its surface bends, past its back.
+vec3 through(vec3 p, vec3 n, vec3 v, float depth, float thickness) {
+    vec3 inside = refract(-v, n, 1.0 / 1.31), outside = normalize(inside - 0.6 * v), exit = p + inside * thickness;
+    // Where the floor ends the ray, or well behind.
+    float way = outside.y < -0.01 ? (exit.y - uFloorHeight) / -outside.y : 1e3 * uSceneRadius;
+    vec3 near = exit + outside * min(max(way, 0.0), 0.6 * uSceneRadius);
+    vec4 clip = uProjection * uView * vec4(near, 1.0);
+    vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
+    vec4 thing = textureLod(uBehind, uv, 0.0);
+    vec3 far = backdrop(clamp(uv, 0.0, 1.0));
+    if (uFloorShown == 1 && way < 1e2 * uSceneRadius) {
+        vec3 hit = exit + outside * max(way, 0.0);
+        float away = length(hit.xz - uFloorCenter.xz) / uFadeRadius, spot = 1.0 / (1.0 + 7.0 * away * away);
+        // Under a clear thing it is neither lit nor dark: it bends the light to where its shadow would be.
+        vec3 light = uKeyColor * saturate(uKeyDirection.y) * spot * 0.75 + mix(uHorizon, uZenith, 0.6);
+        far = mix(uFloorColor * light, far, smoothstep(0.35, 1.0, away));
+    }
+    // The room's lights, focused by the far side.
+    vec3 facet = normalize(vec3(n.z, 0.7, -n.x) + 0.8 * n);
+    vec3 lights = studio(reflect(inside, facet), 0.12, 1.0) + studio(reflect(inside, normalize(facet - 1.2 * n)), 0.12, 1.0);
+    return mix(far, thing.rgb, thing.a > 0.0 ? 1.0 : 0.0) + 0.22 * lights;
+}
+
+vec3 clearThing(vec3 p, vec3 n, SlowLight slow, vec3 albedo, float translucency, float roughness, float depth, float clear) {
+    vec3 milky = thing(p, n, slow, albedo, translucency, roughness), v = normalize(uEye - p);
+    // The farthest back nearby that is not open: at half size the pixel itself may show what is before or beside it.
+    ivec2 size = textureSize(uBack, 0), base = ivec2(floor(vUv * vec2(size) - 0.5));
+    float back = -1.0;
+    for (int i = 0; i < 4; ++i) {
+        float d = texelFetch(uBack, clamp(base + ivec2(i & 1, i >> 1), ivec2(0), size - 1), 0).r;
+        if (d < 1.0) back = max(back, viewDepth(d));
+    }
+    if (back < depth) return milky;
+    float thickness = (back - depth) / max(dot(-v, uCameraForward), 0.1);
+    n = normalize(n + v * max(0.05 - dot(n, v), 0.0));
+    float passes = exp(-thickness / clear), grazing = 1.0 - saturate(dot(n, v)), grazing2 = grazing * grazing;
+    float fresnel = 0.03 + 0.6 * grazing2 * grazing2 * grazing;
+    float open = saturate(1.0 - grazing + slow.occlusion);
+    // Colour deepens with the way.
+    vec3 tint = pow(max(albedo, vec3(0.02)), vec3(min(thickness / clear, 3.0)));
+    vec3 bare = through(p, n, v, depth, thickness) * tint * (1.0 - fresnel);
+    vec3 mirror = studio(reflect(-v, n), 0.08, mix(0.3, 1.0, slow.keyShadow)) * fresnel * open;
+    vec3 sparkle = min(0.04 * flameHighlights(p, n, v, 0.1), vec3(5.0));
+    return mix(milky, bare + mirror + sparkle, passes);
+}
+
 // A satin table that runs into the backdrop: shadows, contact, light of the flames, and a mirror image that blurs with height.
 vec3 table(vec3 p, SlowLight slow, vec3 albedo, vec3 behind) {
     vec3 n = vec3(0.0, 1.0, 0.0), v = normalize(uEye - p);
@@ -126,12 +175,17 @@ vec3 pixel(ivec2 at, int s) {
     SlowLight slow = slowLight(n, depth);
 #if defined(THING_PASS)
     return thing(p, n, slow, base, albedo.a, normal.z);
+#elif defined(CLEAR_PASS)
+    return clearThing(p, n, slow, base, albedo.a, normal.z, depth, clearDepth(normal.w));
 #elif defined(FLOOR_PASS)
     return floorPixel(p, n, slow, base, behind);
 #elif defined(DATA_PASS)
     return data(n, slow, base);
 #else
-    if (normal.w == KIND_THING) return thing(p, n, slow, base, albedo.a, normal.z);
+    float clear = clearDepth(normal.w);
+    if (clear > 0.0) return clearThing(p, n, slow, base, albedo.a, normal.z, depth, clear);
+    if (normal.w < KIND_THING - 0.5) return behind;
+    if (normal.w < KIND_FLOOR - 0.5) return thing(p, n, slow, base, albedo.a, normal.z);
     if (normal.w == KIND_FLOOR) return floorPixel(p, n, slow, base, behind);
     if (normal.w == KIND_DATA) return data(n, slow, base);
     return behind;
@@ -143,7 +197,7 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     float kind = texelFetch(uKinds, at, 0).r * 255.0;
 #if defined(EDGE_PASS)
-    if (kind < 3.5) discard;
+    if (kind < KIND_EDGE - 0.5) discard;
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int s = 0; s < uSampleCount; ++s) {
@@ -159,6 +213,8 @@ void main() {
     const float wanted = KIND_NOTHING;
 #elif defined(THING_PASS)
     const float wanted = KIND_THING;
+#elif defined(CLEAR_PASS)
+    const float wanted = KIND_CLEAR;
 #elif defined(FLOOR_PASS)
     const float wanted = KIND_FLOOR;
 #else

@@ -44,6 +44,6 @@ void main() {
     vec2 uv = (vec2(home) + 0.5) / uPictureSize;
     vec4 albedo = textureLod(uSplatAlbedos, uv, 0.0), state = textureLod(uSplatStates, uv, 0.0);
     float w = max(albedo.a, 1e-6);
-    writeSurface(albedo.rgb / w, state.a / w, state.xyz / w, n);
+    writeSurface(albedo.rgb / w, state.a / w, state.xyz / w, vec2(0.0), n);
     gl_FragDepth = 0.5 + 0.5 * ((uNearFar.y + uNearFar.x) - 2.0 * uNearFar.x * uNearFar.y / z) / (uNearFar.y - uNearFar.x);
 }

@@ -71,6 +71,7 @@ public:
     void set(const char* name, float v) { glUniform1f(location(name), v); }
     void set(const char* name, float x, float y) { glUniform2f(location(name), x, y); }
     void set(const char* name, int x, int y) { glUniform2i(location(name), x, y); }
+    void set2(const char* name, const float* v, int count) { glUniform2fv(location(name), count, v); }
     void set3(const char* name, const float* v, int count = 1) { glUniform3fv(location(name), count, v); }
     void set4(const char* name, const float* v, int count = 1) { glUniform4fv(location(name), count, v); }
     void set1(const char* name, const float* v, int count) { glUniform1fv(location(name), count, v); }

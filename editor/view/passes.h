@@ -27,6 +27,8 @@ enum Unit : int {
     unitSource,
     unitNear,
     unitFar,
+    unitBehind,
+    unitBack,
     unitSplats,
     unitSplatDepths,
     unitSplatAlbedos,

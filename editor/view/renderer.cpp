@@ -62,21 +62,21 @@ std::array<float, 3> floats(Vec3 v) { return {v.x, v.y, v.z}; }
 MaterialLook materialLook(thawMaterialPreset preset) {
     switch (preset) {
     case thawMaterial_chocolate:
-        return {{0.105f, 0.042f, 0.018f}, 0.12f, 0.34f};
+        return {{0.105f, 0.042f, 0.018f}, 0.12f, 0.46f, 0, 0};
     case thawMaterial_butter:
-        return {{0.90f, 0.70f, 0.24f}, 0.55f, 0.38f};
+        return {{0.90f, 0.70f, 0.24f}, 0.55f, 0.38f, 0, 0.012f};
     case thawMaterial_ice:
-        return {{0.74f, 0.87f, 0.93f}, 0.95f, 0.10f};
+        return {{0.74f, 0.87f, 0.93f}, 0.95f, 0.10f, 0.30f, 0.5f};
     case thawMaterial_icecream:
-        return {{0.88f, 0.74f, 0.66f}, 0.40f, 0.62f};
+        return {{0.88f, 0.74f, 0.66f}, 0.40f, 0.62f, 0, 0};
     case thawMaterial_darkchocolate:
-        return {{0.05f, 0.022f, 0.012f}, 0.08f, 0.30f};
+        return {{0.05f, 0.022f, 0.012f}, 0.08f, 0.42f, 0, 0};
     case thawMaterial_aluminium:
-        return {{0.80f, 0.81f, 0.83f}, 0.0f, 0.25f};
+        return {{0.80f, 0.81f, 0.83f}, 0.0f, 0.25f, 0, 0};
     case thawMaterial_iron:
-        return {{0.45f, 0.44f, 0.43f}, 0.0f, 0.40f};
+        return {{0.45f, 0.44f, 0.43f}, 0.0f, 0.40f, 0, 0};
     case thawMaterial_lava:
-        return {{0.06f, 0.05f, 0.05f}, 0.0f, 0.70f};
+        return {{0.06f, 0.05f, 0.05f}, 0.0f, 0.70f, 0, 0};
     default:
         return {};
     }
@@ -105,9 +105,9 @@ struct Renderer::State {
     std::string rendererText;
     GLint maxSamples = 4;
 
-    GlProgram meshGeometry, meshKey, meshFlame, meshMirror, particleGeometry, particleKey;
-    GlProgram regionProgram, reduce, mirrorBlur, lighting, blur, classify, shadeBackdrop, shadeThing, shadeFloor,
-        shadeData, shadeEdge, flame, bloomDown, bloomBlur, composite, overlay;
+    GlProgram meshGeometry, meshDepth, meshKey, meshFlame, meshMirror, particleGeometry, particleKey;
+    GlProgram regionProgram, reduce, mirrorBlur, lighting, blur, classify, shadeBackdrop, shadeThing, shadeClear,
+        shadeFloor, shadeData, shadeEdge, flame, bloomDown, bloomBlur, composite, overlay;
     Splats splats;
     std::vector<GlProgram*> programs; // all of them
 
@@ -122,7 +122,8 @@ struct Renderer::State {
 
     // Sized to the picture.
     int width = 0, height = 0, samples = 0, lightWidth = 0, lightHeight = 0;
-    Target geometry, mirror, mirrorBlurred, kinds, picture, output, bloom[2][2];
+    Target geometry, mirror, mirrorBlurred, behind, kinds, picture, output, bloom[2][2];
+    GlTexture backDepth; // and of behind while that is drawn
     GlTexture mirrorDepth, lightTextures[2][2], sampleNormals, sampleAlbedos, sampleDepths;
     GlFramebuffer lightFramebuffers[2], sampleFramebuffer;
 
@@ -152,6 +153,7 @@ bool Renderer::State::build(std::string& error) {
 
     std::vector<Recipe> recipes = {
         {meshGeometry, "mesh.vert", "surface.glsl+geometry.frag", "CAMERA_PASS"},
+        {meshDepth, "mesh.vert", "depth.frag", "CAMERA_PASS"},
         {meshKey, "mesh.vert", "depth.frag", "KEY_PASS"},
         {meshFlame, "mesh.vert", "depth.frag", "FLAME_PASS"},
         {meshMirror, "mesh.vert", "mirror.glsl+mirror.frag", "CAMERA_PASS"},
@@ -164,6 +166,7 @@ bool Renderer::State::build(std::string& error) {
         {classify, "fullscreen.vert", "classify.frag", ""},
         {shadeBackdrop, "fullscreen.vert", "shade.frag", "BACKDROP_PASS"},
         {shadeThing, "fullscreen.vert", "shade.frag", "THING_PASS"},
+        {shadeClear, "fullscreen.vert", "shade.frag", "CLEAR_PASS"},
         {shadeFloor, "fullscreen.vert", "shade.frag", "FLOOR_PASS"},
         {shadeData, "fullscreen.vert", "shade.frag", "DATA_PASS"},
         {shadeEdge, "fullscreen.vert", "shade.frag", "EDGE_PASS"},
@@ -194,6 +197,8 @@ bool Renderer::State::build(std::string& error) {
         r.program.set("uPicture", unitSource);
         r.program.set("uBloomNear", unitNear);
         r.program.set("uBloomFar", unitFar);
+        r.program.set("uBehind", unitBehind);
+        r.program.set("uBack", unitBack);
         r.program.set("uSplats", unitSplats);
         r.program.set("uSmooth", unitSplatDepths);
         r.program.set("uSplatAlbedos", unitSplatAlbedos);
@@ -276,6 +281,7 @@ bool Renderer::State::resize(int w, int h, int wantedSamples, std::string& error
     }
     if (!makeTarget(mirror, GL_RGBA16F, (w + 1) / 2, (h + 1) / 2, GL_LINEAR, &mirrorDepth, error)) return false;
     if (!makeTarget(mirrorBlurred, GL_RGBA16F, (w + 1) / 2, (h + 1) / 2, GL_LINEAR, nullptr, error)) return false;
+    if (!makeTarget(behind, GL_RGBA16F, (w + 1) / 2, (h + 1) / 2, GL_LINEAR, &backDepth, error)) return false;
     if (!makeTarget(kinds, GL_R8, w, h, GL_NEAREST, nullptr, error)) return false;
     if (!makeTarget(picture, GL_RGBA16F, w, h, GL_LINEAR, nullptr, error)) return false;
     if (!makeTarget(output, GL_RGBA8, w, h, GL_NEAREST, nullptr, error)) return false;
@@ -529,12 +535,18 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
 
     std::array<float, kMaxMaterials * 4> materialColors{};
     std::array<float, kMaxMaterials> materialRoughness{};
+    std::array<float, kMaxMaterials * 2> materialClear{};
+    bool anyClear = false;
     for (size_t i = 0; i < kMaxMaterials; ++i) {
         const MaterialLook look =
             scene.materials.empty() ? MaterialLook{} : scene.materials[std::min(i, scene.materials.size() - 1)];
         const float four[4] = {look.color.x, look.color.y, look.color.z, std::clamp(look.translucency, 0.0f, 1.0f)};
         std::copy(four, four + 4, materialColors.begin() + static_cast<std::ptrdiff_t>(i * 4));
         materialRoughness[i] = std::clamp(look.roughness, 0.05f, 1.0f);
+        // As in common.glsl.
+        const auto share = [](float depth) { return std::max(depth, 0.0f) / (std::max(depth, 0.0f) + 0.05f); };
+        materialClear[2 * i] = share(look.clearDepth), materialClear[2 * i + 1] = share(look.meltClearDepth);
+        anyClear = anyClear || look.clearDepth > 0 || look.meltClearDepth > 0;
     }
 
     const Vec3 keyColor = scene.key.color * scene.key.intensity;
@@ -598,9 +610,11 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
             const float roughness = std::clamp(instance->roughness, 0.05f, 1.0f);
             p.set4("uMaterialColor", color, 1);
             p.set1("uMaterialRoughness", &roughness, 1);
+            p.set("uMaterialClear", 0.0f, 0.0f);
         } else {
             p.set4("uMaterialColor", materialColors.data(), kMaxMaterials);
             p.set1("uMaterialRoughness", materialRoughness.data(), kMaxMaterials);
+            p.set2("uMaterialClear", materialClear.data(), kMaxMaterials);
         }
     };
     const auto drawIndexed = [&](const MeshBuffers& mesh) {
@@ -608,16 +622,17 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
     };
     const bool showSurface = surface.indexCount > 0;
+    enum class Melt { none, front, whole };
     // Meshes and particles of the scene with a pair of programs.
     const auto drawThings = [&](GlProgram& meshProgram, GlProgram* particleProgram, bool castersOnly,
-                                bool cull = false) {
+                                Melt part = Melt::whole) {
         meshProgram.use();
         glVertexAttrib1f(2, scale.temperatureLow);
         glVertexAttrib1f(3, 0);
         glVertexAttrib1f(4, 0);
-        if (showSurface) {
+        if (showSurface && part != Melt::none) {
             // A melt surface is closed and its triangles turn outward; of other meshes nobody promises that.
-            if (cull) glEnable(GL_CULL_FACE);
+            if (part == Melt::front) glEnable(GL_CULL_FACE);
             setMaterial(meshProgram, nullptr);
             drawIndexed(surface);
             glDisable(GL_CULL_FACE);
@@ -701,6 +716,30 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     bindTexture(unitMirror, GL_TEXTURE_2D, mirrorBlurred.texture.get());
     glEnable(GL_DEPTH_TEST);
 
+    // What is seen through clear melt: everything else, and how thick it is.
+    const bool clear = anyClear && showSurface && !dataView;
+    if (clear) {
+        glBindFramebuffer(GL_FRAMEBUFFER, behind.framebuffer.get());
+        glViewport(0, 0, behind.width, behind.height);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        meshMirror.use();
+        setCamera(meshMirror, viewM, camera.eye, up);
+        meshMirror.set("uClipFloor", 0.0f);
+        drawThings(meshMirror, nullptr, false, Melt::none);
+        glClear(GL_DEPTH_BUFFER_BIT);
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        glEnable(GL_CULL_FACE);
+        glCullFace(GL_FRONT);
+        meshDepth.use();
+        setMaterial(meshDepth, nullptr);
+        drawIndexed(surface);
+        glCullFace(GL_BACK);
+        glDisable(GL_CULL_FACE);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        bindTexture(unitBehind, GL_TEXTURE_2D, behind.texture.get());
+        bindTexture(unitBack, GL_TEXTURE_2D, backDepth.get());
+    }
+
     // Geometry.
     splats.prepare(projection * viewM);
     MeshInstance ground;
@@ -718,7 +757,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         p->set("uPhaseLimits", kSolidBelow, kLiquidAbove);
     }
     splats.resolve(samples);
-    drawThings(meshGeometry, &particleGeometry, false, true);
+    drawThings(meshGeometry, &particleGeometry, false, Melt::front);
     if (floorShown) {
         meshGeometry.use();
         setMaterial(meshGeometry, &ground);
@@ -768,12 +807,15 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     fullscreen();
     bindTexture(unitKinds, GL_TEXTURE_2D, kinds.texture.get());
     glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer.get());
-    for (GlProgram* p : {&shadeBackdrop, &shadeThing, &shadeFloor, &shadeData, &shadeEdge}) {
+    for (GlProgram* p : {&shadeBackdrop, &shadeThing, &shadeClear, &shadeFloor, &shadeData, &shadeEdge}) {
+        if (p == &shadeClear && !clear) continue;
         p->use();
         p->set("uPlain", dataView ? 1 : 0);
         vec(*p, "uFloorCenter", ground.position);
         p->set("uReflectivity", reflects ? scene.floor.reflectivity : 0.0f);
         p->set("uFadeRadius", 6.5f * radius);
+        vec(*p, "uFloorColor", ground.color);
+        p->set("uFloorShown", floorShown ? 1 : 0);
         fullscreen();
     }
     flame.use();

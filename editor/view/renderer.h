@@ -44,6 +44,8 @@ struct MaterialLook {
     Vec3 color{0.86f, 0.78f, 0.62f}; // linear RGB 0..1
     float translucency = 0.75f;      // 0 opaque .. 1 light goes about an eighth of the scene's radius deep
     float roughness = 0.42f;         // 0.05 polished .. 1 matt, of the solid; melt always shines
+    float clearDepth = 0;            // m, how deep one sees into the solid: e^-1 is left there; 0: only its surface
+    float meltClearDepth = 0.004f;   // m, and into melt
 };
 /// A look that suits a preset of thaw; its colour is the preset's own unless you set color afterwards.
 MaterialLook materialLook(thawMaterialPreset preset);

@@ -254,6 +254,45 @@ TEST_CASE_FIXTURE(ViewFixture, "paths and shapes lie over the picture, fainter b
     CHECK(draw(candle.scene(), smallView()).pixels == plain.pixels);
 }
 
+TEST_CASE_FIXTURE(ViewFixture, "one sees through what is clear, the less the thicker it is, and not through the rest") {
+    const view::TriangleMesh slab = view::makeBox({0.03f, 0.03f, 0.01f});
+    const std::vector<float> liquid(slab.positions.size() / 3, 1);
+    view::Scene scene;
+    scene.floor.visible = false;
+    scene.surface.vertexCount = int32_t(slab.positions.size() / 3);
+    scene.surface.triangleCount = int32_t(slab.indices.size() / 3);
+    scene.surface.positions = slab.positions.data(), scene.surface.normals = slab.normals.data();
+    scene.surface.indices = slab.indices.data();
+    scene.stage.add(Vec3{-0.05f, -0.05f, -0.05f}), scene.stage.add(Vec3{0.05f, 0.05f, 0.05f});
+    view::MeshInstance ball;
+    ball.mesh = std::make_shared<view::TriangleMesh>(view::makeSphere(0.02f));
+    ball.position = {0, 0, -0.05f}, ball.color = {0.6f, 0.01f, 0.01f};
+    scene.meshes.push_back(ball);
+    view::View v = smallView();
+    v.camera = {{0, 0, 0.3f}, {0, 0, 0}, {0, 1, 0}, 0.4f};
+    const auto redness = [&](float clear, float meltClear) {
+        scene.materials = {{{0.7f, 0.7f, 0.7f}, 0, 0.4f, clear, meltClear}};
+        const Image image = draw(scene, v);
+        const Mean middle = meanOf(image, 0.48, 0.46, 0.52, 0.54);
+        return middle.r - middle.b;
+    };
+    const double none = redness(0, 0), little = redness(0.02f, 0), much = redness(1, 0);
+    CHECK(std::abs(none) < 12);
+    CHECK(little > none + 8);
+    CHECK(much > little + 20);
+    // Of melt its own counts.
+    CHECK(redness(0, 1) == none);
+    scene.surface.liquidFractions = liquid.data();
+    CHECK(redness(0, 1) > little);
+    CHECK(std::abs(redness(1, 0)) < 12);
+    // In a data view nothing is clear.
+    v.mode = view::ViewMode::liquid;
+    scene.materials[0].meltClearDepth = 0;
+    const Image opaque = draw(scene, v);
+    scene.materials[0].meltClearDepth = 1;
+    CHECK(opaque.pixels == draw(scene, v).pixels);
+}
+
 TEST_CASE_FIXTURE(ViewFixture, "the same scene gives the same bytes, whatever was drawn between") {
     const Image first = draw(candle.scene(), smallView());
     view::View other = smallView(view::ViewMode::temperature);
