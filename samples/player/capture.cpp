@@ -14,7 +14,7 @@ namespace thaw::player {
 namespace {
 struct Options {
     std::vector<std::string> scenes;
-    std::string at, size = "960x540", view = "shaded", out, work = "4,4,12";
+    std::string at, size = "960x540", view = "shaded", out, work = kCaptureWork;
     std::string levels; // coarsest ones, a run for each
     int threads = defaultThreads();
     bool sheet = false, cut = false, quiet = false;

@@ -15,7 +15,8 @@ struct Kind {
 };
 constexpr Kind kKinds[] = {{"candle", scene::makeCandle}, {"saucer", scene::makeSaucer},
                            {"star", scene::makeStar},     {"cone", scene::makeWaffleCone},
-                           {"scoops", scene::makeScoops}, {"upper-scoop", scene::makeUpperScoop}};
+                           {"scoops", scene::makeScoops}, {"upper-scoop", scene::makeUpperScoop},
+                           {"bunny", scene::makeBunny},   {"pan", scene::makePan}};
 
 std::string knownKinds() {
     std::string all;

@@ -65,6 +65,10 @@ TriMesh makeScoops();
 // A star of five arms, upright on two of them, 0.068 m wide and 0.028 m deep at its middle, its foot on y = 0; 2,000
 // triangles.
 TriMesh makeStar();
+// A bunny of chocolate, sitting upright and looking along +x: 0.15 m high with its ears, flat below, its foot on y = 0.
+TriMesh makeBunny();
+// A frying pan to look at: 0.27 m across its rim, its inside on y = 0, its handle along +x; the handle runs into the rim.
+TriMesh makePan();
 
 // Reads OBJ, PLY, STL, glTF or GLB: all meshes of the file joined, node transforms applied, equal vertices welded.
 // Throws std::runtime_error with one line that does not name the file.

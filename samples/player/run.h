@@ -10,6 +10,9 @@
 
 namespace thaw::player {
 
+// Work of a step of captures: the same pictures on every machine.
+inline constexpr const char* kCaptureWork = "4,4,12";
+
 // What run and melt have in common on the command line.
 struct RunOptions {
     double seconds = 0.0;  // 0: what the scene says

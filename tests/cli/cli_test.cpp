@@ -174,7 +174,7 @@ TEST_CASE("wrong command lines are refused") {
     checkRefused({"melt", folder.path("nowhere.obj")}, "nowhere.obj: no such file");
     checkRefused({"bench", "scene", scene, "--runs", "0"}, "--runs: must be in 1..1000, got 0");
     checkRefused({"make-mesh", "spoon", "--out", folder.path("x.obj")},
-                 "must be candle, saucer, star, cone, scoops or upper-scoop, got 'spoon'");
+                 "must be candle, saucer, star, cone, scoops, upper-scoop, bunny or pan, got 'spoon'");
 }
 
 TEST_CASE("bad scenes are refused in one line that names file, place and value") {

@@ -414,7 +414,10 @@ TEST_CASE("the meshes of the candle scene are what the player makes") {
                           {"cone.obj", makeWaffleCone(), 109e-6, 0.02},
                           {"scoops.obj", makeScoops(), 139e-6, 0.02, 0.135 - 0.72 * 0.027},
                           {"upper_scoop.obj", makeUpperScoop(), 57e-6, 0.02, 0.168 - 0.72 * 0.024},
-                          {"star.obj", makeStar(), 40.8e-6, 0.01}};
+                          {"star.obj", makeStar(), 40.8e-6, 0.01},
+                          // What it held when its picture was judged; a disc, a wall and a bar.
+                          {"bunny.obj", makeBunny(), 243e-6, 0.01},
+                          {"pan.obj", makePan(), 267e-6, 0.1, -0.0035}};
     for (const Case& c : cases) {
         CAPTURE(c.file);
         CHECK(unpairedEdges(c.mesh) == 0);

@@ -2,73 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "report.h"
 #include "validate/lab.h"
+#include "validate/mesh_of.h"
 #include "validate/validate.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace thaw::player {
 namespace {
-
-using Point = std::array<double, 3>;
-
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-// A surface as the host gets it, copied.
-struct Mesh {
-    std::vector<Point> points;
-    std::vector<std::array<uint32_t, 3>> triangles;
-
-    explicit Mesh(const Lab& lab) {
-        const thawSurfaceView s = lab.surface();
-        for (int v = 0; v < s.vertexCount; ++v)
-            points.push_back(
-                {double(s.positions[3 * v]), double(s.positions[3 * v + 1]), double(s.positions[3 * v + 2])});
-        for (int t = 0; t < s.triangleCount; ++t)
-            triangles.push_back({s.indices[3 * t], s.indices[3 * t + 1], s.indices[3 * t + 2]});
-    }
-
-    // Edges with one triangle, and with more than two or two that run the same way.
-    void faults(int& open, int& tangled) const {
-        std::map<std::pair<uint32_t, uint32_t>, std::array<int, 2>> edges;
-        for (const auto& t : triangles)
-            for (size_t k = 0; k < 3; ++k) {
-                const uint32_t a = t[k], b = t[(k + 1) % 3];
-                ++edges[{std::min(a, b), std::max(a, b)}][a < b ? 0 : 1];
-            }
-        open = tangled = 0;
-        for (const auto& [edge, uses] : edges) open += uses[0] + uses[1] == 1, tangled += uses[0] > 1 || uses[1] > 1;
-    }
-    double volume() const {
-        double sum = 0;
-        for (const auto& t : triangles) sum += dot(points[t[0]], cross(points[t[1]], points[t[2]])) / 6;
-        return sum;
-    }
-    int pieces() const {
-        std::vector<uint32_t> parent(points.size());
-        std::iota(parent.begin(), parent.end(), 0u);
-        const auto root = [&](uint32_t v) {
-            while (parent[v] != v) v = parent[v] = parent[parent[v]];
-            return v;
-        };
-        for (const auto& t : triangles) parent[root(t[0])] = root(t[1]), parent[root(t[1])] = root(t[2]);
-        int count = 0;
-        for (uint32_t v = 0; v < parent.size(); ++v) count += parent[v] == v;
-        return count;
-    }
-    template <class F> double mean(F&& distance) const {
-        double sum = 0;
-        for (const Point& x : points) sum += std::abs(distance(x));
-        return points.empty() ? 0 : sum / double(points.size());
-    }
-};
 
 double volumeOfMelt(const Lab& lab, float density) {
     const thawParticleView p = lab.particles();
@@ -153,7 +96,7 @@ struct Still {
 void sphere(Findings& found) {
     Still s;
     s.lab.body(s.material, scene::makeSphere(0.02f), {0, 0, 0}, Lab::kSolid);
-    const Mesh m(s.lab);
+    const Mesh m(s.lab.surface());
     found.atMost("ball of 20 mm: mean distance of the surface, spacings", 0.25,
                  m.mean([](const Point& x) { return std::sqrt(dot(x, x)) - 0.02; }) / double(kSpacing));
     found.within("enclosed, cm^3", 1e6 * volumeOfMelt(s.lab, 1000), 1e6 * m.volume(), 0.03);
@@ -171,7 +114,7 @@ double toBox(const Point& x, const Point& half) {
 void cube(Findings& found) {
     Still s;
     s.lab.body(s.material, scene::makeBox({0.03f, 0.03f, 0.03f}), {0, 0, 0}, Lab::kSolid);
-    const Mesh m(s.lab);
+    const Mesh m(s.lab.surface());
     found.atMost("cube of 30 mm: mean distance of the surface, spacings", 0.25, m.mean([](const Point& x) {
         return toBox(x, {0.015, 0.015, 0.015});
     }) / double(kSpacing));
@@ -191,7 +134,7 @@ void sheet(Findings& found) {
     Still s;
     const float thick = 2 * kSpacing;
     s.lab.body(s.material, scene::makeBox({0.06f, thick, 0.06f}), {0, 0, 0}, Lab::kSolid);
-    const Mesh m(s.lab);
+    const Mesh m(s.lab.surface());
     found.atMost("sheet of two spacings: mean distance of the surface, spacings", 0.25, m.mean([&](const Point& x) {
         return toBox(x, {0.03, 0.5 * double(thick), 0.03});
     }) / double(kSpacing));
@@ -205,7 +148,7 @@ void beads(Findings& found) {
     for (int k = 0; k < kBeads; ++k)
         s.lab.body(s.material, scene::makeBox({kSpacing, kSpacing, kSpacing}), {3 * kSpacing * float(k), 0, 0},
                    Lab::kSolid);
-    const Mesh m(s.lab);
+    const Mesh m(s.lab.surface());
     const double radius = std::cbrt(3 / (4 * kPi)) * double(kSpacing);
     found.within("single particles three spacings apart: pieces", kBeads, m.pieces(), 0);
     found.atMost("mean distance from balls of their volume, spacings", 0.25, m.mean([&](const Point& x) {
@@ -227,7 +170,7 @@ void levels(Findings& found) {
     found.atLeast("coarse block, painted at one end: fine particles, share", 0.2,
                   double(c.levels[0]) / double(c.particles));
     found.atLeast("coarse ones", 100, c.levels[3]);
-    const Mesh m(s.lab);
+    const Mesh m(s.lab.surface());
     double worst = 0;
     for (const Point& x : m.points)
         if (std::abs(x[0]) < 0.03 && std::abs(x[2]) < 0.012) worst = std::max(worst, std::abs(std::abs(x[1]) - 0.02));
@@ -244,7 +187,7 @@ void liquidLevels(Findings& found) {
     lab.step(240);
     const thawCounters c = lab.counters();
     found.atLeast("pool with levels after 4 s: coarse particles", 100, c.levels[1] + c.levels[2] + c.levels[3]);
-    const Mesh mesh(lab);
+    const Mesh mesh(lab.surface());
     double sum = 0, n = 0, square = 0;
     for (const Point& x : mesh.points)
         if (std::abs(x[0]) < 0.03 && std::abs(x[2]) < 0.02 && x[1] > 0.03) sum += x[1], square += x[1] * x[1], n += 1;
@@ -270,7 +213,7 @@ void melting(Findings& found) {
     double worst = 0;
     lab.step(600, [&](int f) {
         if (f % 10) return;
-        const Mesh mesh(lab);
+        const Mesh mesh(lab.surface());
         int o = 0, t = 0;
         mesh.faults(o, t);
         open += o, tangled += t;
@@ -287,10 +230,10 @@ void still(Findings& found) {
     lab.floor();
     lab.body(m, scene::makeCandle(), {0, 0, 0}, Lab::kSolid);
     lab.step(1);
-    const Mesh before(lab);
+    const Mesh before(lab.surface());
     int moved = 0;
     lab.step(60, [&](int) {
-        const Mesh now(lab);
+        const Mesh now(lab.surface());
         moved += now.points != before.points || now.triangles != before.triangles;
     });
     found.atMost("body at rest, 60 frames: those whose mesh is another", 0, moved);
@@ -300,7 +243,7 @@ void scanned(Findings& found) {
     Still s;
     const scene::TriMesh candle = scene::makeCandle();
     s.lab.body(s.material, candle, {0, 0, 0}, Lab::kSolid);
-    const Mesh m(s.lab);
+    const Mesh m(s.lab.surface());
     std::vector<Point> points;
     std::vector<std::array<uint32_t, 3>> triangles;
     for (size_t v = 0; v < candle.vertices.size(); v += 3)

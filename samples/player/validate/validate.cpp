@@ -15,6 +15,8 @@
 namespace thaw::player {
 namespace {
 
+std::string scenesPlace = THAW_SCENES_DIR;
+
 struct Suite {
     const char* name;
     const char* what;
@@ -31,7 +33,7 @@ std::vector<Suite> suites() {
          "conduction, contact, phase change, radiation and loss",
          {conductionCases(), stefanCases(), radiationCases(), surfaceCases(), heatLevelCases(), undercoolingCases()}},
         {"control", "where paths and shapes take the melt", {pathCases(), shapeCases()}},
-        {"surface", "the mesh of what melts", {meshCases()}}};
+        {"surface", "the mesh of what melts", {meshCases(), sceneCases()}}};
 }
 
 struct Options {
@@ -84,6 +86,8 @@ int validate(const Options& o) {
             c.run(found);
         } catch (const LabError& e) {
             failure = e.what();
+        } catch (const scene::InputError& e) {
+            failure = e.what();
         }
         if (tell) std::fprintf(stderr, "\r\033[K");
         const char* name = c.name;
@@ -116,6 +120,8 @@ int validate(const Options& o) {
 
 } // namespace
 
+const std::string& scenesFolder() { return scenesPlace; }
+
 void Findings::within(const std::string& what, double expected, double got, double tolerance) {
     const double error = std::abs(got - expected) / std::abs(expected);
     checks_.push_back({what, Check::kWithin, expected, got, error, tolerance, error <= tolerance});
@@ -135,8 +141,9 @@ void addValidate(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand(
         "validate", "Run cases with known answers and print expected, got, error and tolerance; 1 when any is out");
     auto o = std::make_shared<Options>();
-    command->add_option("suite", o->suite, "motion or heat")->required();
+    command->add_option("suite", o->suite, "motion, heat, control or surface")->required();
     command->add_option("case", o->cases, "Only these cases, or those whose names begin so");
+    command->add_option("--scenes", scenesPlace, "Folder of the sample scenes, for surface")->capture_default_str();
     command->add_flag("--list", o->list, "Name the cases and what they are");
     command->add_option("--out", o->out, "CSV file for the rows as well");
     command->add_flag("--quiet", o->quiet, "No progress");

@@ -38,6 +38,9 @@ struct ValidationCase {
     void (*run)(Findings&);
 };
 
+// Where the sample scenes are: --scenes, or where they lay when this was built.
+const std::string& scenesFolder();
+
 // One list per file; validate.cpp puts them together.
 using CaseList = std::vector<ValidationCase>;
 CaseList liquidCases();
@@ -61,5 +64,6 @@ CaseList undercoolingCases();
 CaseList pathCases();
 CaseList shapeCases();
 CaseList meshCases();
+CaseList sceneCases();
 
 } // namespace thaw::player
