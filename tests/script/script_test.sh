@@ -36,6 +36,11 @@ expect 2 "unknown preset 'fast'" test --preset fast
 expect 0 'usage: ./thaw build' build -h
 expect 2 "unknown preset 'fast'" build fast
 expect 2 'one preset at most' build release debug
+expect 0 'usage: ./thaw gallery' gallery --help
+expect 2 "unknown argument '--fast'" gallery --fast
+expect 2 "no picture 'mona_lisa'" gallery mona_lisa
+expect 2 '--check takes no names' gallery --check candle
+expect 0 'capture samples/scenes/candle.json' gallery --list
 expect 0 'usage: ./thaw clean' clean --help
 expect 2 'clean takes no arguments' clean all
 
@@ -45,6 +50,37 @@ ln -s "$thaw" link
 
 # What is left behind in the caller's directory: nothing but that link.
 [[ $(ls -A) == link ]] || { echo "script: left in the caller's directory: $(ls -A)"; failed=1; }
+
+# The pictures in the repository are those of its scenes, and what has become stale is noticed.
+expect 0 '' gallery --check
+mkdir -p stale/samples
+cp "$thaw" stale/thaw
+cp -r "$source/samples/gallery" "$source/samples/scenes" stale/samples/
+# staleSays TEXT: what the copy's check complains of, once
+staleSays() {
+    local output status
+    output=$(./stale/thaw gallery --check 2>&1)
+    status=$?
+    if ((status != 1)) || [[ $output != *"$1"* ]]; then
+        printf 'script: a stale gallery: expected "%s", got %s and:\n%s\n' "$1" "$status" "$output"
+        failed=1
+    fi
+    cp -r "$source/samples/gallery" "$source/samples/scenes" stale/samples/
+}
+sed -i 's/"seconds": /"seconds": 1/' stale/samples/scenes/bar.json
+staleSays 'bar.png: its command, scene or mesh is not what it was made from'
+echo '# another' >>stale/samples/scenes/meshes/star.obj
+staleSays 'star.png: its command, scene or mesh'
+sed -i 's/--size 480x270 --sheet/--size 480x271 --sheet/' stale/samples/gallery/gallery.txt
+staleSays 'burn.png: its command'
+rm stale/samples/gallery/candle.gif
+staleSays 'candle.gif: is missing'
+touch stale/samples/gallery/spoon.png
+staleSays 'spoon.png: is not in gallery.txt'
+rm stale/samples/gallery/spoon.png
+sed -i '/^| !\[burn\]/d' stale/samples/gallery/README.md
+staleSays 'README.md: its table is not that of gallery.txt'
+rm -r stale
 
 # Without root, without sudo and with a package missing it must say what to install, not fail in the middle.
 if command -v setpriv >/dev/null && ((EUID == 0)); then
