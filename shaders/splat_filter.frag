@@ -31,9 +31,10 @@ void main() {
         float a = any(lessThan(p, ivec2(0))) ? 0.0 : depthAt(p), b = any(greaterThan(q, last)) ? 0.0 : depthAt(q);
         // What is much nearer is another thing, and takes its mirror image with it; what is much farther pulls no more than
         // the range allows.
-        if (a > 0.0 && a < z - low) a = 0.0;
-        if (b > 0.0 && b < z - low) b = 0.0;
-        if (a <= 0.0 || b <= 0.0) continue;
+        if ((a > 0.0 && a < z - low) || (b > 0.0 && b < z - low)) continue;
+        // Nothing pulls a little: it rounds clusters of beads. As much as the range would sink drops into what they run on.
+        if (a <= 0.0) a = z + 0.3 * uSpacing;
+        if (b <= 0.0) b = z + 0.3 * uSpacing;
         float far = z + high, w = exp(-float(i * i * stride * stride) / (2.0 * sigma * sigma));
         if (a <= far && b <= far) {
             // A slope widens the range as it goes on.

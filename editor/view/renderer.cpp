@@ -4,6 +4,8 @@
 // A picture is made in these passes; numbers are for 960 x 540.
 //
 //   key map (1024^2) and flame maps (512^2 each): depth from the lights
+//   behind (480 x 270), where melt is clear: everything else, and the depth of the melt's back
+//   splats (960 x 540), where the melt is drawn from its particles: depths, filter, colours
 //   geometry (960 x 540, multisampled): normal, roughness, kind; colour, translucency; depth
 //   reduce (480 x 270) -> lighting: occlusion, soft shadow, light through wax, flames -> blur along surfaces
 //   mirror (480 x 270): what the table reflects

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <iostream>
 
@@ -27,7 +28,7 @@ int benchPictures(const Options& o) {
     checkRange("--threads", o.threads, 1, 64);
     const PictureSize size = parseSize("--size", o.size);
     const std::filesystem::path file = std::filesystem::temp_directory_path() / "thaw-bench-picture.png";
-    std::cout << "scene,view,width,height,particles,triangles,ms_first,ms_p50,ms_worst\n";
+    std::cout << "scene,view,width,height,particles,triangles,ms_first,ms_p50,ms_worst,cpu_ms_p50\n";
     double slowest = 0;
     for (const std::string& path : o.scenes) {
         const scene::Scene scene = scene::loadScene(path);
@@ -38,18 +39,20 @@ int benchPictures(const Options& o) {
         for (int f = 0; f < int(o.at / kFrameSeconds + 0.5); ++f) stepOrThrow(built.world.get(), budget, report);
         Pictures pictures(scene, meshes, size);
         for (const NamedView& named : kNamedViews) {
-            std::vector<double> times;
+            std::vector<double> times, busy; // busy: of all cores together
             for (int f = 0; f <= o.frames; ++f) {
                 stepOrThrow(built.world.get(), budget, report);
                 const auto start = std::chrono::steady_clock::now();
+                const std::clock_t cpuStart = std::clock();
                 const view::Image image = pictures.draw(built.world.get(), named.view);
                 std::string error;
                 if (!view::writePng(file.string(), image, error)) throw RunError(error);
                 times.push_back(
                     std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+                busy.push_back(1000.0 * double(std::clock() - cpuStart) / CLOCKS_PER_SEC);
             }
             const double first = times.front();
-            times.erase(times.begin());
+            times.erase(times.begin()), busy.erase(busy.begin());
             thawSurfaceDef def;
             thawInitSurfaceDef(&def);
             thawSurfaceView surface;
@@ -59,10 +62,10 @@ int benchPictures(const Options& o) {
             thawWorld_GetCounters(built.world.get(), &counters);
             const double middle = percentile(times, 0.5);
             slowest = std::max(slowest, middle);
-            std::cout << formatted("%s,%s,%d,%d,%d,%d,%.0f,%.0f,%.0f\n",
+            std::cout << formatted("%s,%s,%d,%d,%d,%d,%.0f,%.0f,%.0f,%.0f\n",
                                    std::filesystem::path(path).stem().string().c_str(), named.name, size.width,
                                    size.height, counters.particles, surface.triangleCount, first, middle,
-                                   *std::max_element(times.begin(), times.end()))
+                                   *std::max_element(times.begin(), times.end()), percentile(busy, 0.5))
                       << std::flush;
         }
     }

@@ -212,3 +212,22 @@ TEST_CASE_FIXTURE(ViewFixture, "what is before something else in screen space ke
     CHECK(redness(pixels - 3) > 2);
     CHECK(redness(pixels + 4) < 1.4);
 }
+
+TEST_CASE_FIXTURE(ViewFixture, "a single drop on a wall stays in front of it") {
+    Melt melt;
+    melt.add({0, 0.03f, 0.5f * kSpacing}, {0, 0, 1}, 300, 0, 1);
+    const thawParticleView particles = melt.view();
+    view::Scene scene = ballScene();
+    scene.splats = &particles;
+    view::MeshInstance wall;
+    wall.mesh = std::make_shared<view::TriangleMesh>(view::makeBox({0.04f, 0.03f, 0.01f}));
+    wall.position = {0, 0.03f, -0.01f}, wall.color = {0.5f, 0.5f, 0.5f};
+    scene.meshes.push_back(wall);
+    const Image image = draw(scene, ballView());
+    // It shows nearly all of the disc of a ball of its volume.
+    int red = 0;
+    for (const Rgba& p : image.pixels) red += p.r > 2 * p.g;
+    const double pixels = 0.62 * kSpacing / (2 * 0.3 * std::tan(0.2)) * image.height;
+    CHECK(red > 0.5 * 3.14159 * pixels * pixels);
+    CHECK(red < 1.3 * 3.14159 * pixels * pixels);
+}
