@@ -12,19 +12,20 @@ layout(location = 0) out vec4 oLight; // occlusion, key shadow, key transmission
 layout(location = 1) out vec4 oFlame; // diffuse light of the flames
 
 const int kOcclusionTaps = 10;
+const int kContactTaps = 6;
 const int kBlockerTaps = 8;
 const int kShadowTaps = 12;
 const int kFlameTaps = 7;
 
 // A cone of taps over the hemisphere seen on screen, each weighted by its cosine and distance.
-float occlusion(vec3 p, vec3 n, float depth, float phase) {
+float occlusion(vec3 p, vec3 n, float depth, float phase, float radius, int taps) {
     vec2 size = vec2(textureSize(uGeometry, 0));
-    float reach = uOcclusionRadius * size.y * 0.5 / (depth * length(uCameraUp));
+    float reach = radius * size.y * 0.5 / (depth * length(uCameraUp));
     reach = clamp(reach, 2.0, 0.12 * size.y);
     float worldReach = reach * depth * length(uCameraUp) / (0.5 * size.y);
     float sum = 0.0;
-    for (int i = 0; i < kOcclusionTaps; ++i) {
-        vec2 at = gl_FragCoord.xy + vogel(i, kOcclusionTaps, phase) * reach;
+    for (int i = 0; i < taps; ++i) {
+        vec2 at = gl_FragCoord.xy + vogel(i, taps, phase) * reach;
         if (any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, size))) continue;
         float z = texelFetch(uGeometry, ivec2(at), 0).z;
         if (z <= 0.0) continue;
@@ -33,7 +34,7 @@ float occlusion(vec3 p, vec3 n, float depth, float phase) {
         float near = saturate(1.0 - d2 / (4.0 * worldReach * worldReach));
         sum += near * saturate(dot(v, n) * inversesqrt(d2 + 1e-12) - 0.08);
     }
-    return saturate(1.0 - 1.9 * sum / float(kOcclusionTaps));
+    return saturate(1.0 - 1.9 * sum / float(taps));
 }
 
 // R. Fernando, "Percentage-closer soft shadows", 2005; the same taps give the way of the light through the body.
@@ -100,7 +101,9 @@ void main() {
     vec3 n = octDecode(g.xy);
     vec3 p = worldAt(vUv, g.z);
     float phase = 2.0 * PI * gradientNoise(gl_FragCoord.xy);
-    oLight.x = occlusion(p, n, g.z, phase);
+    // Wide, and close up for the line where things touch.
+    float contact = occlusion(p, n, g.z, phase + 2.1, 0.2 * uOcclusionRadius, kContactTaps);
+    oLight.x = occlusion(p, n, g.z, phase, uOcclusionRadius, kOcclusionTaps) * mix(1.0, contact, 0.6);
     oLight.yz = keyLight(p, n, g.w, phase);
     oFlame.rgb = min(flames(p, n, g.w, phase), vec3(200.0));
     oLight.w = 1.0;

@@ -293,6 +293,27 @@ TEST_CASE_FIXTURE(ViewFixture, "one sees through what is clear, the less the thi
     CHECK(opaque.pixels == draw(scene, v).pixels);
 }
 
+TEST_CASE_FIXTURE(ViewFixture, "a crease between sides of one colour has no stairs") {
+    view::Scene scene;
+    scene.floor.visible = false;
+    view::MeshInstance box;
+    box.mesh = std::make_shared<view::TriangleMesh>(view::makeBox({0.03f, 0.03f, 0.03f}));
+    box.color = {0.5f, 0.5f, 0.5f}, box.roughness = 1;
+    scene.meshes.push_back(box);
+    scene.key.direction = {-1, 0.2f, 0.1f};
+    // One edge stands in the middle, leaning.
+    view::View v = smallView();
+    v.camera = {{0.2f, 0, 0.2f}, {0, 0, 0}, {0.1f, 1, -0.1f}, 0.15f};
+    const Image smooth = draw(scene, v);
+    v.samples = 1;
+    const Image hard = draw(scene, v);
+    int between = 0;
+    for (int y = smooth.height / 4; y < smooth.height * 3 / 4; ++y)
+        for (int x = smooth.width * 2 / 5; x < smooth.width * 3 / 5; ++x)
+            between += std::abs(smooth.at(x, y).g - hard.at(x, y).g) > 4;
+    CHECK(between > 40);
+}
+
 TEST_CASE_FIXTURE(ViewFixture, "the same scene gives the same bytes, whatever was drawn between") {
     const Image first = draw(candle.scene(), smallView());
     view::View other = smallView(view::ViewMode::temperature);
