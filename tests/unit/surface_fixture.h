@@ -78,7 +78,7 @@ struct Mesher {
         s.workerCount = workers;
         return s;
     }
-    thaw::Surface& operator()(const Wax& wax, float cell = 0.75f, int smoothing = 6) {
+    thaw::Surface& operator()(const Wax& wax, float cell = 0.75f, int smoothing = 1) {
         surface.extract(wax.input(), cell, smoothing, tasks);
         return surface;
     }

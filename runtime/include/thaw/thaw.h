@@ -693,7 +693,8 @@ THAW_API int32_t thawWorld_GetPieces(const thawWorld* world, thawPieceState* out
 typedef struct thawSurfaceDef {
     uint32_t structSize, cookie;
     float cellSize;    /* in particle spacings; range 0.25..4, default 0.75 */
-    int32_t smoothing; /* passes over the mesh; range 0..50, default 6 */
+    int32_t smoothing; /* passes over the mesh, of which one takes what is shorter than three cells; range 0..10,
+                          default 1 */
 } thawSurfaceDef;
 THAW_API void thawInitSurfaceDef(thawSurfaceDef* def);
 

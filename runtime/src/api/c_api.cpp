@@ -911,7 +911,7 @@ void thawInitSurfaceDef(thawSurfaceDef* def) {
     *def = thawSurfaceDef{};
     def->structSize = sizeof *def, def->cookie = thaw::kDefCookie;
     def->cellSize = 0.75f;
-    def->smoothing = 6;
+    def->smoothing = 1;
 }
 
 thawResult thawWorld_ExtractSurface(thawWorld* world, const thawSurfaceDef* def, thawSurfaceView* out) {
@@ -921,7 +921,7 @@ thawResult thawWorld_ExtractSurface(thawWorld* world, const thawSurfaceDef* def,
         if (!c.ok()) return;
         if (!out) c.fail(thawResult_invalidArgument, "out: is NULL");
         c.range("cellSize", def->cellSize, 0.25, 4);
-        c.range("smoothing", def->smoothing, 0, 50);
+        c.range("smoothing", def->smoothing, 0, 10);
         if (c.ok()) w.extractSurface(*def, *out);
     });
 }

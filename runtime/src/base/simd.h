@@ -197,6 +197,12 @@ HWY_INLINE double sumOfLanes(F32 v) {
     for (int k = 0; k < kLanes; ++k) s += static_cast<double>(lane[k]);
     return s;
 }
+// A bit for each lane, of lane 0 the lowest.
+HWY_INLINE unsigned bitsOf(Mask mask) {
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(kF32, mask, bits);
+    return bits[0];
+}
 HWY_INLINE float maxOfLanes(F32 v) { return hn::GetLane(hn::MaxOfLanes(kF32, v)); }
 
 } // namespace HWY_NAMESPACE

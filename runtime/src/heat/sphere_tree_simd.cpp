@@ -17,12 +17,6 @@ HWY_INLINE F32 dotPlain(F32 ax, F32 ay, F32 az, F32 bx, F32 by, F32 bz) {
     return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
 }
 
-HWY_INLINE uint32_t bitsOf(Mask mask) {
-    uint8_t bytes[8] = {};
-    hn::StoreMaskBits(kF32, mask, bytes);
-    return bytes[0];
-}
-
 struct LaneRay {
     F32 origin[3], direction[3], inverse[3], from, to;
 };

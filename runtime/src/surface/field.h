@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "base/types.h"
+#include "surface/field_simd.h"
 
 namespace thaw {
 
@@ -19,8 +20,9 @@ struct SurfaceInput {
     float spacing = 0; // m, of level 0
 };
 
-// How much of the space around a node is wax, and the wax's properties there, on 8^3 blocks of nodes wherever a
-// particle reaches. The grid stands still in the world: node (i, j, k) is at cell * (i, j, k).
+// How much of the space around a node is wax, on 8^3 blocks of nodes wherever a particle reaches. The grid stands still
+// in the world: node (i, j, k) is at cell * (i, j, k). What has not changed since the last time is not computed again,
+// and has the bits that it would have if it were.
 //
 //     fill(x) = sum_i a_i V_i W(|x - x_i|),   W = 315 / (64 pi R^3) (1 - r^2/R^2)^3
 //
@@ -32,12 +34,16 @@ class SurfaceField {
 public:
     static constexpr int kSide = 8, kNodes = kSide * kSide * kSide;
     static constexpr float kIso = 0.5f;
-    enum Channel { kFill, kTemperature, kLiquid, kCompany, kChannels }; // all but kFill are sums weighted by fill
+    static constexpr int kNear = 27; // a block and those around it; (dx, dy, dz) is nearAt(dx, dy, dz)
+    static constexpr int nearAt(int dx, int dy, int dz) { return (dz + 1) * 9 + (dy + 1) * 3 + dx + 1; }
 
     struct Block {
-        int32_t x, y, z;    // first node / 8
-        int32_t begin, end; // range of members
-        int32_t upper[8];   // block at (+1 if bit 0, +1 if bit 1, +1 if bit 2), -1 where nothing reaches; [0] is itself
+        int32_t x, y, z;          // first node / 8
+        int32_t near[kNear] = {}; // slot of each, -1 where nothing reaches
+        uint32_t reached = 0;     // bits: which of near its particles may reach
+        int32_t around = 0;       // particles that may reach into it
+        bool alive = false;       // else the slot is free
+        bool changed = false;     // by the last update: its values, or the particles around
     };
 
     // Share of smoothing for a vertex with this mean company: none for drops and threads, which would shrink (the idea
@@ -46,48 +52,96 @@ public:
 
     explicit SurfaceField(Allocator& allocator);
 
+    enum class Change { nothing, blocks, everything };
     // wantedCell in m. A cell finer than the float grid of the positions, or one that needs too many blocks, is made
-    // coarser.
-    void build(const SurfaceInput& input, float wantedCell, Tasks& tasks);
+    // coarser. Temperatures and liquid fractions are not looked at. After a throw, clear().
+    Change update(const SurfaceInput& input, float wantedCell, Tasks& tasks);
+    void clear();
 
     double cell() const { return cell_; }
-    int blockCount() const { return int(blocks_.size()); }
-    const Block& block(int b) const { return blocks_[b]; }
-    const int32_t* members(const Block& b) const {
-        return members_.data() + b.begin;
-    }                                                                    // particles that reach it, ascending
-    float radius(int particle) const { return reach_[particle].radius; } // m, of its kernel
-    const float* values(int block, Channel channel) const {
-        return values_.data() + (size_t(block) * kChannels + channel) * kNodes;
-    }
+    int slotCount() const { return int(blocks_.size()); }
+    const Block& block(int slot) const { return blocks_[slot]; }
+    const Array<int32_t>& order() const { return order_; } // slots of the blocks, by place
+    const float* values(int slot) const { return values_.data() + size_t(slot) * kNodes; }
+    // Bit x of byte 8 z + y: whether that node is inside.
+    const uint8_t* inside(int slot) const { return inside_.data() + size_t(slot) * kSide * kSide; }
+    // Fill at the particle before lifting, up to kFullCompany.
+    float company(uint32_t row) const { return rows_[row].company; }
+
+    // Particles in runs, each of some that lie side by side: all that may reach into the box, in cells from the
+    // block's first node, whatever order that is - it depends on their places and rows only.
+    struct Runs {
+        static constexpr int kMost = 9 * 9 * 3 + 1; // and one for the large ones
+        int count = 0, begins[kMost], ends[kMost];
+    };
+    void runsAround(int slot, const float lower[3], const float upper[3], Runs& out) const;
+    FillBox boxOf(int slot, const float lower[3], const float upper[3]) const; // in m
+    const FillArrays& arrays() const { return arrays_; }
+    const uint32_t* rowsOfArrays() const { return sortedRows_.data(); }
+    int rowCount() const { return int(rows_.size()); }
+    int largeCount() const { return int(large_.size()); } // particles in no run; they end the arrays
 
 private:
-    struct Reach {
-        float radius;    // of the kernel, m
-        float amplitude; // V W(0), then a V W(0)
-        float company;   // fill at the particle before lifting, up to kFullCompany
+    static constexpr int kBins = 3, kBlockBins = kBins * kBins * kBins; // of a block, along an axis and in all
+    struct Row {
+        float inverse;   // 1 / R^2
+        float amplitude; // V W(0)
+        float lifted;    // a V W(0)
+        float company;
+        int32_t home;      // slot of the block that its centre is in; -1: reaches farther than a block, is in no bin
+        uint8_t bin;       // of that block
+        uint8_t reach;     // bits x-, x+, y-, y+, z-, z+: sides of the block that it may reach over
+        bool otherCompany; // than the last time
     };
-    struct Candidates;
 
-    bool findBlocks(const SurfaceInput& input);
-    int blockOf(uint64_t key);
+    bool rebuild(const SurfaceInput& input);
+    bool placeRows(const SurfaceInput& input, const int32_t* begin, const int32_t* end);
+    int slotAt(int64_t x, int64_t y, int64_t z);
+    size_t entryOf(uint64_t key) const;
     void growTable(size_t size);
-    void sortBlocks();
-    void gather(const Block& block, const SurfaceInput& input, Candidates& out) const;
-    void countCompany(int block, const SurfaceInput& input, int worker);
-    void splat(int block, const SurfaceInput& input);
+    void dropBlock(int slot);
+    bool linkBlocks(const SurfaceInput& input);
+    bool reachOfLarge(const SurfaceInput& input);
+    void markAround(const Row& row);
+    template <class F> void forChanged(Tasks& tasks, F&& f);
+    void sortRows(const SurfaceInput& input);
+    void countCompany(int slot, const SurfaceInput& input);
+    bool isFullAround(int slot, int k) const;
+    void countCompanyOfLarge(const SurfaceInput& input);
+    void setCompany(Row& row, int sum, Vec3 at, const SurfaceInput& input);
+    void splat(int slot, const float* amplitudes, const Runs& runs, float* values) const;
+    void splatBlock(int slot);
+    void liftBlock(int slot);
 
+    bool valid_ = false;
     double cell_ = 0;
-    int64_t origin_[3] = {}; // block that keys count from
-    Array<Reach> reach_;
-    Array<Block> blocks_;
-    Array<int32_t> members_;
-    Array<float> values_;
+    float asked_ = 0, spacing_ = 0; // the last time
+    float reach_ = 0;               // cells, farthest of those that are in bins
 
-    Array<uint64_t> keys_, sortedKeys_, tableKeys_;
-    Array<int32_t> tableBlocks_, ranks_, pairBlocks_, pairParticles_;
-    Array<float> scratch_; // per worker: candidates of a block
-    int scratchStride_ = 0;
+    // The particles of the last time.
+    Array<Vec4> positions_;
+    Array<uint8_t> materials_;
+    Array<uint16_t> bodies_;
+
+    Array<Row> rows_;
+    Array<int32_t> freshRows_, large_; // of another place than the last time; in no bin
+    Array<Block> blocks_;
+    Array<int32_t> freeSlots_, order_, changedSlots_;
+    Array<uint8_t> needed_;
+    Array<uint64_t> tableKeys_;
+    Array<int32_t> tableSlots_;
+    size_t tableUsed_ = 0;
+    bool setChanged_ = false;
+    int lastSlot_ = -1;
+    Array<float> base_, values_; // before and after lifting
+    Array<uint8_t> inside_;
+
+    // Rows by bin, and by row within a bin; large ones last.
+    Array<int32_t> binStarts_;
+    Array<uint32_t> sortedRows_;
+    Array<float> sorted_; // the arrays of arrays_, one after the other
+    Array<float> excess_; // of lifted over amplitude
+    FillArrays arrays_{};
 };
 
 } // namespace thaw

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "surface/field_simd.h"
 
-#include <cmath>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "surface/field_simd.cpp"
 #include "hwy/foreach_target.h"
@@ -14,56 +12,156 @@ HWY_BEFORE_NAMESPACE();
 namespace thaw {
 namespace HWY_NAMESPACE {
 
+constexpr int kSide = 8;
+
+HWY_INLINE F32 outside(F32 v, float center, float half) {
+    return hn::Max(hn::Sub(hn::Abs(hn::Sub(v, all(center))), all(half)), zero());
+}
+
 HWY_INLINE F32 kernel(F32 t, F32 amplitude) {
     t = hn::Max(t, zero());
     return hn::Mul(hn::Mul(amplitude, t), hn::Mul(t, t));
 }
 
-float sumRunsLanes(const FillArrays& from, const int* begins, const int* ends, int runs, float x, float y, float z,
-                   float enough) {
-    const F32 px = all(x), py = all(y), pz = all(z), one = all(1);
-    float sum = 0;
-    for (int run = 0; run < runs && sum < enough; ++run) {
-        F32 lanes = zero();
-        for (int k = begins[run]; k < ends[run]; k += kLanes) {
-            F32 dx = hn::Sub(load(from.x + k), px), dy = hn::Sub(load(from.y + k), py),
-                dz = hn::Sub(load(from.z + k), pz);
-            F32 t = hn::NegMulAdd(dot3(dx, dy, dz, dx, dy, dz), load(from.inverse + k), one);
-            F32 w = kernel(t, load(from.amplitude + k));
-            lanes = hn::Add(lanes, hn::IfThenElseZero(hn::FirstN(kF32, size_t(ends[run] - k)), w));
-        }
-        sum += float(sumOfLanes(lanes));
+// Those of a run that reach into the box, where they stand. Up to seven more are written.
+HWY_INLINE int listNear(const FillArrays& from, int begin, int end, const FillBox& box, float sharper, uint32_t* out) {
+    int count = 0;
+    for (int k = begin; k < end; k += kLanes) {
+        const F32 dx = outside(load(from.x + k), box.center[0], box.half[0]),
+                  dy = outside(load(from.y + k), box.center[1], box.half[1]),
+                  dz = outside(load(from.z + k), box.center[2], box.half[2]);
+        const Mask reaches =
+            hn::Lt(hn::Mul(dot3(dx, dy, dz, dx, dy, dz), hn::Mul(load(from.inverse + k), all(sharper))), all(1));
+        unsigned bits = bitsOf(reaches);
+        if (end - k < kLanes) bits &= (1u << (end - k)) - 1;
+        for (; bits != 0; bits &= bits - 1)
+            out[count++] = static_cast<uint32_t>(k) + static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
     }
-    return sum;
+    return count;
 }
 
-void splatSourceLanes(const FillSource& s, float* values) {
-    constexpr int kSide = 8, kNodes = 512;
-    const float squared = s.radius * s.radius, inverse = 1 / squared;
-    alignas(64) float alongX[kSide];
-    for (int l = 0; l < kSide; ++l) alongX[l] = 1 - (float(l) - s.x) * (float(l) - s.x) * inverse;
-    const F32 amplitude = all(s.amplitude), c0 = all(s.carried[0]), c1 = all(s.carried[1]), c2 = all(s.carried[2]);
-    int zBegin = static_cast<int>(std::ceil(s.z - s.radius)), zEnd = static_cast<int>(std::floor(s.z + s.radius));
-    if (zBegin < 0) zBegin = 0;
-    if (zEnd > kSide - 1) zEnd = kSide - 1;
-    for (int nz = zBegin; nz <= zEnd; ++nz) {
-        const float dz = float(nz) - s.z, rest = squared - dz * dz, half = rest > 0 ? std::sqrt(rest) : 0;
-        int yBegin = static_cast<int>(std::ceil(s.y - half)), yEnd = static_cast<int>(std::floor(s.y + half));
-        if (yBegin < 0) yBegin = 0;
-        if (yEnd > kSide - 1) yEnd = kSide - 1;
-        for (int ny = yBegin; ny <= yEnd; ++ny) {
-            const float dy = float(ny) - s.y;
-            const F32 across = all((dy * dy + dz * dz) * inverse);
+void sumAroundLanes(const FillArrays& from, const int* begins, const int* ends, int runs, const FillBox& box,
+                    const int* which, int rows, int* sums) {
+    constexpr int kRoom = 256;
+    uint32_t list[kRoom + 8];
+    alignas(32) float x[kRoom + 8], y[kRoom + 8], z[kRoom + 8], inverse[kRoom + 8], amplitude[kRoom + 8];
+    for (int i = 0; i < rows; ++i) sums[i] = 0;
+    int count = 0;
+    for (int run = 0; run < runs; ++run)
+        for (int begin = begins[run]; begin < ends[run]; begin += kRoom / 2) {
+            const int end = begin + kRoom / 2 < ends[run] ? begin + kRoom / 2 : ends[run];
+            const int found = listNear(from, begin, end, box, 1, list);
+            for (int n = 0; n < found; ++n, ++count) {
+                const uint32_t j = list[n];
+                x[count] = from.x[j], y[count] = from.y[j], z[count] = from.z[j];
+                inverse[count] = from.inverse[j], amplitude[count] = from.amplitude[j];
+            }
+            const bool isLast = run + 1 == runs && end == ends[run];
+            if (count < kRoom / 2 && !isLast) continue;
+            for (int k = count; k < count + 8; ++k) x[k] = y[k] = z[k] = inverse[k] = amplitude[k] = 0;
+            for (int i = 0; i < rows; ++i) {
+                const F32 px = all(from.x[which[i]]), py = all(from.y[which[i]]), pz = all(from.z[which[i]]);
+                auto lanes = hn::Zero(kI32);
+                for (int k = 0; k < count; k += kLanes) {
+                    const F32 dx = hn::Sub(load(x + k), px), dy = hn::Sub(load(y + k), py),
+                              dz = hn::Sub(load(z + k), pz);
+                    const F32 t = hn::NegMulAdd(dot3(dx, dy, dz, dx, dy, dz), load(inverse + k), all(1));
+                    const F32 w = kernel(t, load(amplitude + k));
+                    lanes = hn::Add(lanes, hn::NearestInt(hn::Mul(w, all(1 / kFillUnit))));
+                }
+                sums[i] += hn::GetLane(hn::SumOfLanes(kI32, lanes));
+            }
+            count = 0;
+        }
+}
+
+// 1 - (l - at)^2 inverse for l = 0..7, and which are above zero.
+HWY_INLINE unsigned axis(float at, float inverse, float* out) {
+    alignas(32) static constexpr float kPlaces[kSide] = {0, 1, 2, 3, 4, 5, 6, 7};
+    unsigned above = 0;
+    for (int part = 0; part < kSide; part += kLanes) {
+        const F32 d = hn::Sub(hn::Load(kF32, kPlaces + part), all(at));
+        const F32 t = hn::NegMulAdd(hn::Mul(d, d), all(inverse), all(1));
+        hn::Store(t, kF32, out + part);
+        above |= bitsOf(hn::Gt(t, zero())) << part;
+    }
+    return above;
+}
+
+void splatRunsLanes(const FillArrays& from, const float* amplitudes, const int* begins, const int* ends, int runs,
+                    const FillBlock& block, float* values) {
+    const float cellSquared = static_cast<float>(1 / (block.perCell * block.perCell));
+    for (int run = 0; run < runs; ++run)
+        for (int k = begins[run]; k < ends[run]; ++k) {
+            if (amplitudes[k] == 0) continue;
+            const float x = static_cast<float>(static_cast<double>(from.x[k]) * block.perCell - block.first[0]),
+                        y = static_cast<float>(static_cast<double>(from.y[k]) * block.perCell - block.first[1]),
+                        z = static_cast<float>(static_cast<double>(from.z[k]) * block.perCell - block.first[2]);
+            const float inverse = from.inverse[k] * cellSquared;
+            alignas(32) float alongX[kSide], alongY[kSide], alongZ[kSide];
+            if (axis(x, inverse, alongX) == 0) continue;
+            // The whole box and not what the ball has of it: loops of different lengths cost more, a branch each that
+            // is not foreseen.
+            const unsigned ys = axis(y, inverse, alongY), zs = axis(z, inverse, alongZ);
+            if (ys == 0 || zs == 0) continue;
+            const int yBegin = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(ys)),
+                      yEnd = 32 - static_cast<int>(hwy::Num0BitsAboveMS1Bit_Nonzero32(ys)),
+                      zBegin = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(zs)),
+                      zEnd = 32 - static_cast<int>(hwy::Num0BitsAboveMS1Bit_Nonzero32(zs));
+            const F32 amplitude = all(amplitudes[k]);
             for (int part = 0; part < kSide; part += kLanes) {
-                float* row = values + (nz * kSide + ny) * kSide + part;
-                const F32 w = kernel(hn::Sub(load(alongX + part), across), amplitude);
-                store(hn::Add(load(row), w), row);
-                store(hn::MulAdd(w, c0, load(row + kNodes)), row + kNodes);
-                store(hn::MulAdd(w, c1, load(row + 2 * kNodes)), row + 2 * kNodes);
-                store(hn::MulAdd(w, c2, load(row + 3 * kNodes)), row + 3 * kNodes);
+                const F32 xs = hn::Sub(hn::Load(kF32, alongX + part), all(2)); // each of the three is 1 - something
+                for (int nz = zBegin; nz < zEnd; ++nz) {
+                    const F32 xz = hn::Add(xs, all(alongZ[nz]));
+                    float* row = values + nz * kSide * kSide + part;
+                    for (int ny = yBegin; ny < yEnd; ++ny) {
+                        const F32 w = kernel(hn::Add(xz, all(alongY[ny])), amplitude);
+                        store(hn::Add(load(row + ny * kSide), w), row + ny * kSide);
+                    }
+                }
             }
         }
+}
+
+void markInsideLanes(const float* values, float iso, uint8_t* bits) {
+    for (int row = 0; row < kSide * kSide; ++row) {
+        unsigned b = 0;
+        for (int part = 0; part < kSide; part += kLanes)
+            b |= bitsOf(hn::Ge(load(values + row * kSide + part), all(iso))) << part;
+        bits[row] = static_cast<uint8_t>(b);
     }
+}
+
+int copyNearLanes(const FillArrays& from, const uint32_t* fromRows, const int* begins, const int* ends, int runs,
+                  const FillBox& box, float sharper, float* to, int stride, uint32_t* rows) {
+    int count = 0;
+    for (int run = 0; run < runs; ++run) count += listNear(from, begins[run], ends[run], box, sharper, rows + count);
+    for (int k = 0; k < count; ++k) {
+        const uint32_t j = rows[k];
+        to[k] = from.x[j], to[stride + k] = from.y[j], to[2 * stride + k] = from.z[j];
+        to[3 * stride + k] = from.inverse[j] * sharper;
+        rows[k] = fromRows[j];
+    }
+    return count;
+}
+
+int weighLanes(const float* near, int stride, int count, float x, float y, float z, float* weights, uint32_t* which) {
+    int found = 0;
+    for (int k = 0; k < count; k += kLanes) {
+        const F32 dx = hn::Sub(load(near + k), all(x)), dy = hn::Sub(load(near + stride + k), all(y)),
+                  dz = hn::Sub(load(near + 2 * stride + k), all(z));
+        const F32 t = hn::NegMulAdd(dot3(dx, dy, dz, dx, dy, dz), load(near + 3 * stride + k), all(1));
+        unsigned bits = bitsOf(hn::Gt(t, zero()));
+        if (count - k < kLanes) bits &= (1u << (count - k)) - 1;
+        if (bits == 0) continue;
+        alignas(32) float lane[kLanes];
+        hn::Store(hn::Mul(t, hn::Mul(t, t)), kF32, lane);
+        for (; bits != 0; bits &= bits - 1) {
+            const uint32_t l = static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+            weights[found] = lane[l], which[found++] = static_cast<uint32_t>(k) + l;
+        }
+    }
+    return found;
 }
 
 } // namespace HWY_NAMESPACE
@@ -73,15 +171,34 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace thaw {
 
-HWY_EXPORT(sumRunsLanes);
-HWY_EXPORT(splatSourceLanes);
+HWY_EXPORT(sumAroundLanes);
+HWY_EXPORT(copyNearLanes);
+HWY_EXPORT(weighLanes);
+HWY_EXPORT(splatRunsLanes);
+HWY_EXPORT(markInsideLanes);
 
-float sumRuns(const FillArrays& from, const int* begins, const int* ends, int runs, float x, float y, float z,
-              float enough) {
-    return HWY_DYNAMIC_DISPATCH(sumRunsLanes)(from, begins, ends, runs, x, y, z, enough);
+void sumAround(const FillArrays& from, const int* begins, const int* ends, int runs, const FillBox& box,
+               const int* which, int count, int* sums) {
+    HWY_DYNAMIC_DISPATCH(sumAroundLanes)(from, begins, ends, runs, box, which, count, sums);
 }
 
-void splatSource(const FillSource& source, float* values) { HWY_DYNAMIC_DISPATCH(splatSourceLanes)(source, values); }
+int copyNear(const FillArrays& from, const uint32_t* fromRows, const int* begins, const int* ends, int runs,
+             const FillBox& box, float sharper, float* to, int stride, uint32_t* rows) {
+    return HWY_DYNAMIC_DISPATCH(copyNearLanes)(from, fromRows, begins, ends, runs, box, sharper, to, stride, rows);
+}
+
+int weigh(const float* near, int stride, int count, float x, float y, float z, float* weights, uint32_t* which) {
+    return HWY_DYNAMIC_DISPATCH(weighLanes)(near, stride, count, x, y, z, weights, which);
+}
+
+void splatRuns(const FillArrays& from, const float* amplitudes, const int* begins, const int* ends, int runs,
+               const FillBlock& block, float* values) {
+    HWY_DYNAMIC_DISPATCH(splatRunsLanes)(from, amplitudes, begins, ends, runs, block, values);
+}
+
+void markInside(const float* values, float iso, uint8_t* bits) {
+    HWY_DYNAMIC_DISPATCH(markInsideLanes)(values, iso, bits);
+}
 
 } // namespace thaw
 #endif

@@ -2,26 +2,45 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 namespace thaw {
 
-// Candidates around a point, one array per number, readable seven past the last.
+// Particles as one array per number, readable seven past the last.
 struct FillArrays {
-    const float *x, *y, *z, *inverse, *amplitude; // inverse: 1 / radius^2
+    const float *x, *y, *z, *inverse, *amplitude; // m; inverse: 1 / radius^2
 };
 
-// Sum of amplitude (1 - r^2 inverse)^3 at (x, y, z) over up to nine runs [begins, ends), in their order; stops after
-// the run that reaches enough.
-float sumRuns(const FillArrays& from, const int* begins, const int* ends, int runs, float x, float y, float z,
-              float enough);
+constexpr float kFillUnit = 1.0f / 65536; // of sums that must not depend on their order
 
-// One particle, in cells from the block's first node, and what it carries.
-struct FillSource {
-    float x, y, z, radius, amplitude;
-    float carried[3];
+struct FillBox {
+    float center[3], half[3]; // m
 };
 
-// Adds w = amplitude (1 - r^2 / radius^2)^3 to channel 0 and w carried[k] to channel k + 1 at the nodes of a block of
-// 8^3; channels are 512 apart.
-void splatSource(const FillSource& source, float* values);
+// For each of the particles `which`, all in the box: the sum of amplitude (1 - r^2 inverse)^3 over runs [begins, ends),
+// each rounded to kFillUnit.
+void sumAround(const FillArrays& from, const int* begins, const int* ends, int runs, const FillBox& box,
+               const int* which, int count, int* sums);
+
+// Copies the particles of runs that reach into the box, with inverse sharper in place of inverse, to arrays of `stride`
+// one after the other, x, y, z and inverse, and their rows, in their order; returns how many.
+int copyNear(const FillArrays& from, const uint32_t* fromRows, const int* begins, const int* ends, int runs,
+             const FillBox& box, float sharper, float* to, int stride, uint32_t* rows);
+
+// Weights t^3, t = 1 - r^2 inverse, of those of `count` where t is above 0, and which they are, in their order;
+// returns how many. Reads up to seven more.
+int weigh(const float* near, int stride, int count, float x, float y, float z, float* weights, uint32_t* which);
+
+// Where a block of 8^3 nodes is, and how wide its cells are.
+struct FillBlock {
+    double first[3], perCell; // of the first node, in cells; 1 / m
+};
+
+// Adds amplitude (1 - r^2 inverse)^3 at the nodes of the block, one particle after the other, by these amplitudes.
+void splatRuns(const FillArrays& from, const float* amplitudes, const int* begins, const int* ends, int runs,
+               const FillBlock& block, float* values);
+
+// Bit x of byte 8 z + y: whether that node's value is iso or more.
+void markInside(const float* values, float iso, uint8_t* bits);
 
 } // namespace thaw

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "base/types.h"
+#include "surface/smooth_simd.h"
 
 namespace thaw {
 
@@ -13,24 +14,20 @@ class MeshSmoother {
 public:
     explicit MeshSmoother(Allocator& allocator);
 
-    // Reads who is next to whom. The mesh must be closed: each vertex then sees each neighbour in exactly one corner.
+    // Reads who is next to whom; keeps looking at the indices. The mesh must be closed: each vertex then sees each
+    // neighbour in exactly one corner.
     void connect(size_t vertexCount, const Array<uint32_t>& indices);
-    // mobility per vertex, 0..1: share of the motion along the normal; 0 only evens out the triangles.
-    void smooth(Array<Vec3>& positions, const Array<float>& mobility, int passes, Tasks& tasks);
+    // w is the vertex's mobility, 0..1: its share of the motion along the normal; 0 only evens out the triangles.
+    void smooth(Array<Vec4>& positions, int passes, Tasks& tasks);
     // Unit, outward; averaged with their neighbours' passes times.
-    void normals(const Array<Vec3>& positions, Array<Vec3>& out, int passes, Tasks& tasks);
+    void normals(const Array<Vec4>& positions, Array<Vec4>& out, int passes, Tasks& tasks);
 
 private:
-    void sweep(const Array<Vec3>& from, Array<Vec3>& to, const Array<float>& mobility, float step, Tasks& tasks) const;
+    MeshCorners corners() const { return {begins_.data(), next_.data(), triangle_.data()}; }
 
-    Vec3 normalAt(const Array<Vec3>& positions, size_t v) const;
-
-    struct Corner {
-        uint32_t next, previous; // the other two vertices of a triangle, in its order
-    };
-    Array<uint32_t> begins_;
-    Array<Corner> corners_;
-    Array<Vec3> other_;
+    Array<uint32_t> begins_, next_, triangle_;
+    const uint32_t* indices_ = nullptr;
+    Array<Vec4> other_, triangleNormals_;
 };
 
 } // namespace thaw

@@ -11,79 +11,87 @@ namespace thaw {
 namespace {
 
 constexpr int kSide = SurfaceField::kSide, kNodes = SurfaceField::kNodes;
-constexpr int kWide = kSide + 1,
-              kWideNodes = kWide * kWide * kWide; // a block's cells have their last corners next door
+constexpr int kWide = kSide + 1; // a block's cells have their last corners next door
+constexpr int kPart = kSide / 2; // vertices of a part of a block look for their origins together
 
 // Shading shows bumps that the outline does not: two passes hide them on disordered particles, three flatten drips.
 constexpr int kNormalPasses = 2;
-constexpr int kMostSeen = 16; // materials around a vertex that are told apart
+
+// Not __builtin_popcount, which is a call on the baseline.
+int countBits(unsigned eight) {
+    eight = (eight & 0x55) + (eight >> 1 & 0x55);
+    eight = (eight & 0x33) + (eight >> 2 & 0x33);
+    return int((eight & 0xf) + (eight >> 4));
+}
 
 int nodeAt(int x, int y, int z) { return (z * kSide + y) * kSide + x; }
-int wideAt(int x, int y, int z) { return (z * kWide + y) * kWide + x; }
-constexpr int kWideStep[3] = {1, kWide, kWide* kWide};
 
-// One channel on the nodes of all the block's cells.
-void readWide(const SurfaceField& field, int block, SurfaceField::Channel channel, float* out) {
-    const auto& upper = field.block(block).upper;
-    for (int z = 0; z < kWide; ++z)
-        for (int y = 0; y < kWide; ++y) {
-            int yz = (y == kSide) << 1 | (z == kSide) << 2, from = nodeAt(0, y % kSide, z % kSide);
-            float* row = out + wideAt(0, y, z);
-            if (upper[yz] < 0)
-                std::fill(row, row + kSide, 0.0f);
-            else
-                std::copy_n(field.values(upper[yz], channel) + from, kSide, row);
-            row[kSide] = upper[yz + 1] < 0 ? 0 : field.values(upper[yz + 1], channel)[from];
-        }
+// Block at (+1 if bit 0, +1 if bit 1, +1 if bit 2) of another.
+int upper(const SurfaceField::Block& block, int bits) {
+    return block.near[SurfaceField::nearAt(bits & 1, bits >> 1 & 1, bits >> 2 & 1)];
 }
 
-bool inside(float fill) { return fill >= SurfaceField::kIso; }
+// Which nodes of a block's cells are inside: bit x of [z][y].
+struct Inside {
+    uint16_t rows[kWide][kWide];
+    bool some = false, every = true;
 
-// Which corners of the cell are inside, a bit each.
-int cubeCase(const float* fill, int node) {
-    int bits = 0;
-    for (int c = 0; c < 8; ++c)
-        bits |= inside(fill[node + (c & 1) * kWideStep[0] + (c >> 1 & 1) * kWideStep[1] + (c >> 2) * kWideStep[2]])
-                << c;
-    return bits;
-}
-
-// f(x, y, z, axis) for the edges of the block's own nodes that cross the surface, in the order of their vertices.
-template <class F> void forCrossings(const float* fill, F&& f) {
-    for (int z = 0; z < kSide; ++z)
-        for (int y = 0; y < kSide; ++y)
-            for (int x = 0; x < kSide; ++x) {
-                int node = wideAt(x, y, z);
-                bool here = inside(fill[node]);
-                for (int axis = 0; axis < 3; ++axis)
-                    if (here != inside(fill[node + kWideStep[axis]])) f(x, y, z, axis);
+    Inside(const SurfaceField& field, int slot) {
+        const SurfaceField::Block& block = field.block(slot);
+        for (int z = 0; z < kWide; ++z)
+            for (int y = 0; y < kWide; ++y) {
+                const int yz = (y == kSide) << 1 | (z == kSide) << 2, row = z % kSide * kSide + y % kSide;
+                const int left = upper(block, yz), right = upper(block, yz | 1);
+                unsigned bits = left < 0 ? 0 : field.inside(left)[row];
+                if (right >= 0) bits |= (field.inside(right)[row] & 1u) << kSide;
+                rows[z][y] = uint16_t(bits);
+                some |= bits != 0, every &= bits == 0x1ff;
             }
-}
+    }
+    // Of the edges along axis that start in row (y, z): those that cross the surface.
+    unsigned crossings(int y, int z, int axis) const {
+        const unsigned here = rows[z][y];
+        const unsigned there = axis == 0 ? here >> 1 : axis == 1 ? rows[z][y + 1] : rows[z + 1][y];
+        return (here ^ there) & 0xff;
+    }
+    // f(x, corners) for the cells of row (y, z) that the surface goes through; a bit for each corner.
+    template <class F> void forCells(int y, int z, F&& f) const {
+        const unsigned a = rows[z][y], b = rows[z][y + 1], c = rows[z + 1][y], d = rows[z + 1][y + 1];
+        const unsigned any = a | b | c | d, all = a & b & c & d;
+        for (unsigned cells = (any | any >> 1) & ~(all & all >> 1) & 0xff; cells != 0; cells &= cells - 1) {
+            const int x = __builtin_ctz(cells);
+            f(x, (a >> x & 3) | (b >> x & 3) << 2 | (c >> x & 3) << 4 | (d >> x & 3) << 6);
+        }
+    }
+};
 
-// The four with the largest sums, of equals the one with the lower index, as shares.
-void mix(uint8_t* seen, int kinds, const float* sums, Surface::Mixture& out) {
+// Shares of the materials of a vertex's particles: the four with the largest sums, of equals the one with the lower
+// index.
+void mix(const Origins& origins, const uint8_t* materials, Surface::Mixture& out) {
+    uint8_t seen[Origins::kMost];
+    float sums[Origins::kMost];
+    int kinds = 0;
+    for (int k = 0; k < Origins::kMost; ++k) {
+        const uint8_t material = materials[origins.row[k]];
+        int n = 0;
+        while (n < kinds && seen[n] != material) ++n;
+        if (n == kinds) seen[kinds] = material, sums[kinds++] = 0;
+        sums[n] += origins.share[k];
+    }
     out = {};
     const int used = std::min(kinds, 4);
     float all = 0;
     for (int k = 0; k < used; ++k) {
-        for (int n = k + 1; n < kinds; ++n) {
-            const float a = sums[seen[n]], b = sums[seen[k]];
-            if (a > b || (a == b && seen[n] < seen[k])) std::swap(seen[n], seen[k]);
-        }
-        all += sums[seen[k]];
+        for (int n = k + 1; n < kinds; ++n)
+            if (sums[n] > sums[k] || (sums[n] == sums[k] && seen[n] < seen[k]))
+                std::swap(sums[n], sums[k]), std::swap(seen[n], seen[k]);
+        all += sums[k];
     }
     int left = 255;
     for (int k = used - 1; k >= 0; --k) {
-        const int share = k == 0 ? left : std::min(left, int(255 * sums[seen[k]] / all + 0.5f));
+        const int share = k == 0 ? left : std::min(left, int(255 * sums[k] / all + 0.5f));
         if (share > 0) out.material[k] = seen[k], out.share[k] = uint8_t(share), left -= share;
     }
-}
-
-template <class F> void forCells(const float* fill, F&& f) {
-    for (int z = 0; z < kSide; ++z)
-        for (int y = 0; y < kSide; ++y)
-            for (int x = 0; x < kSide; ++x)
-                if (int bits = cubeCase(fill, wideAt(x, y, z)); bits != 0 && bits != 255) f(x, y, z, bits);
 }
 
 } // namespace
@@ -91,22 +99,36 @@ template <class F> void forCells(const float* fill, F&& f) {
 Surface::Surface(Allocator& allocator)
     : positions(allocator), normals(allocator), temperatures(allocator), liquidFractions(allocator),
       materials(allocator), bodies(allocator), mixtures(allocator), indices(allocator), field_(allocator),
-      smoother_(allocator), meshes_(allocator), edgeVertices_(allocator), last_(allocator), mobility_(allocator) {}
+      smoother_(allocator), meshes_(allocator), changed_(allocator), vertexPool_(allocator), codePool_(allocator),
+      raw_(allocator), origins_(allocator), rawMixtures_(allocator), rawMaterials_(allocator), rawBodies_(allocator),
+      codes_(allocator), edgeVertices_(allocator), floats_(allocator), ints_(allocator), smoothed_(allocator),
+      unitNormals_(allocator), warmth_(allocator) {}
 
 void Surface::clear() {
     positions.clear(), normals.clear(), temperatures.clear(), liquidFractions.clear(), materials.clear(),
         bodies.clear(), mixtures.clear(), indices.clear();
+    field_.clear();
+    smoothing_ = -1;
 }
 
 void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, Tasks& tasks) {
-    if (same(input, cellSize, smoothing)) return;
     try {
-        last_.smoothing = -1;
-        makeMesh(input, cellSize, tasks);
-        smoother_.connect(positions.size(), indices);
-        smoother_.smooth(positions, mobility_, smoothing, tasks);
-        smoother_.normals(positions, normals, kNormalPasses, tasks);
-        remember(input, cellSize, smoothing);
+        const SurfaceField::Change change = field_.update(input, cellSize * input.spacing, tasks);
+        const bool otherShape = change != SurfaceField::Change::nothing || smoothing != smoothing_;
+        if (!keepWarmth(input) && !otherShape) return;
+        if (otherShape) {
+            smoothing_ = -1;
+            if (change != SurfaceField::Change::nothing)
+                meshBlocks(input, change == SurfaceField::Change::everything, tasks);
+            assemble(tasks);
+            smoother_.connect(smoothed_.size(), indices);
+            smoother_.smooth(smoothed_, smoothing, tasks);
+            smoother_.normals(smoothed_, unitNormals_, kNormalPasses, tasks);
+            for (size_t v = 0; v < smoothed_.size(); ++v)
+                positions[v] = smoothed_[v].xyz(), normals[v] = unitNormals_[v].xyz();
+            smoothing_ = smoothing;
+        }
+        setWarmth(tasks);
         ++made_;
     } catch (...) {
         clear();
@@ -114,140 +136,190 @@ void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, 
     }
 }
 
-bool Surface::same(const SurfaceInput& input, float cellSize, int smoothing) const {
-    const size_t n = size_t(std::max(input.count, 0));
-    const auto equal = [n](const auto& kept, const auto* given) {
-        return n == 0 || std::memcmp(kept.data(), given, n * sizeof *given) == 0;
-    };
-    return last_.smoothing == smoothing && last_.cellSize == cellSize && last_.spacing == input.spacing &&
-           last_.position.size() == n && equal(last_.position, input.positions) &&
-           equal(last_.temperature, input.temperatures) && equal(last_.liquidFraction, input.liquidFractions) &&
-           equal(last_.material, input.materials) && equal(last_.body, input.bodies);
-}
-
-void Surface::remember(const SurfaceInput& input, float cellSize, int smoothing) {
-    const size_t n = size_t(std::max(input.count, 0));
-    const auto keep = [n](auto& to, const auto* from) {
-        to.resizeRaw(n);
-        if (n > 0) std::memcpy(to.data(), from, n * sizeof *from);
-    };
-    keep(last_.position, input.positions), keep(last_.temperature, input.temperatures);
-    keep(last_.liquidFraction, input.liquidFractions), keep(last_.material, input.materials);
-    keep(last_.body, input.bodies);
-    last_.spacing = input.spacing, last_.cellSize = cellSize, last_.smoothing = smoothing;
-}
-
-void Surface::makeMesh(const SurfaceInput& input, float cellSize, Tasks& tasks) {
-    clear();
-    field_.build(input, cellSize * input.spacing, tasks);
-    int blocks = field_.blockCount();
-    meshes_.resizeRaw(blocks);
-    edgeVertices_.resizeRaw(size_t(blocks) * 3 * kNodes);
-    tasks.forBlocks(blocks, 4, [&](int begin, int end, int, int) {
-        for (int b = begin; b < end; ++b) count(b);
-    });
-
-    uint32_t vertexSum = 0, indexSum = 0;
-    for (BlockMesh& m : meshes_) {
-        m.vertexBegin = vertexSum, m.indexBegin = indexSum;
-        vertexSum += m.vertexCount, indexSum += m.indexCount;
+// Meshes the blocks that have changed.
+void Surface::meshBlocks(const SurfaceInput& input, bool all, Tasks& tasks) {
+    const size_t slots = size_t(field_.slotCount());
+    if (all) meshes_.clear(), vertexPool_.clear(), codePool_.clear();
+    meshes_.resize(slots);
+    edgeVertices_.resizeRaw(slots * 3 * kNodes);
+    changed_.clear();
+    int most = 0;
+    for (size_t slot = 0; slot < slots; ++slot) {
+        const SurfaceField::Block& block = field_.block(int(slot));
+        if (block.changed) changed_.push(int32_t(slot)), most = std::max(most, block.around);
+        if (!block.alive) meshes_[slot].vertexCount = meshes_[slot].codeCount = 0;
     }
-    temperatures.resizeRaw(vertexSum);
-    liquidFractions.resizeRaw(vertexSum);
-    materials.resizeRaw(vertexSum), bodies.resizeRaw(vertexSum), mixtures.resizeRaw(vertexSum);
-    mobility_.resizeRaw(vertexSum);
-    positions.resizeRaw(vertexSum);
-    indices.resizeRaw(indexSum);
-    tasks.forBlocks(blocks, 4, [&](int begin, int end, int, int) {
-        for (int b = begin; b < end; ++b)
-            if (meshes_[b].vertexCount + meshes_[b].indexCount) emit(b, input);
+    tasks.forBlocks(int(changed_.size()), 4, [&](int begin, int end, int, int) {
+        for (int k = begin; k < end; ++k) count(changed_[k]);
     });
+    for (BlockMesh& mesh : meshes_)
+        vertexPool_.fit(mesh.vertices, mesh.vertexCount), codePool_.fit(mesh.codes, mesh.codeCount);
+    const size_t vertices = vertexPool_.size();
+    raw_.resizeRaw(vertices), origins_.resizeRaw(vertices), rawMixtures_.resizeRaw(vertices);
+    rawMaterials_.resizeRaw(vertices), rawBodies_.resizeRaw(vertices);
+    codes_.resizeRaw(codePool_.size());
+    stride_ = most + 8;
+    floats_.resizeRaw(size_t(tasks.workerCount()) * OriginFinder::kFloats * stride_);
+    ints_.resizeRaw(size_t(tasks.workerCount()) * OriginFinder::kInts * stride_);
+    tasks.forBlocks(int(changed_.size()), 4, [&](int begin, int end, int, int worker) {
+        for (int k = begin; k < end; ++k)
+            if (meshes_[changed_[k]].vertexCount + meshes_[changed_[k]].codeCount) emit(changed_[k], input, worker);
+    });
+    blocksMeshed_ += int64_t(changed_.size());
 }
 
-void Surface::count(int block) {
-    BlockMesh& mesh = meshes_[block];
-    mesh = {};
-    float fill[kWideNodes];
-    readWide(field_, block, SurfaceField::kFill, fill);
-    int insideCount = 0;
-    for (float f : fill) insideCount += inside(f);
-    if (insideCount == 0 || insideCount == kWideNodes) return;
-    uint16_t* edges = edgeVertices_.data() + size_t(block) * 3 * kNodes;
-    forCrossings(fill, [&](int x, int y, int z, int axis) {
-        edges[axis * kNodes + nodeAt(x, y, z)] = uint16_t(mesh.vertexCount++);
-    });
-    forCells(fill, [&](int, int, int, int bits) { mesh.indexCount += 3u * cubeCases().triangleCount[bits]; });
-}
-
-void Surface::emit(int block, const SurfaceInput& input) {
-    const SurfaceField::Block& place = field_.block(block);
-    const BlockMesh& mesh = meshes_[block];
-    float fill[kWideNodes], temperature[kWideNodes], liquid[kWideNodes], company[kWideNodes];
-    readWide(field_, block, SurfaceField::kFill, fill);
-    readWide(field_, block, SurfaceField::kTemperature, temperature);
-    readWide(field_, block, SurfaceField::kLiquid, liquid);
-    readWide(field_, block, SurfaceField::kCompany, company);
-
-    const int32_t* members = field_.members(place);
-    int memberCount = place.end - place.begin;
-    bool oneOrigin = true;
-    for (int k = 1; k < memberCount; ++k)
-        oneOrigin &= input.materials[members[k]] == input.materials[members[0]] &&
-                     input.bodies[members[k]] == input.bodies[members[0]];
-    // The nearest particle, and what of each material is around.
-    auto look = [&](Vec3 p, Mixture& mixture) {
-        float best = INFINITY, sums[256];
-        int32_t at = members[0];
-        uint8_t seen[kMostSeen];
-        int kinds = 0;
-        for (int k = 0; k < memberCount; ++k) {
-            const int32_t i = members[k];
-            const Vec3 d = input.positions[i].xyz() - p;
-            const float d2 = dot(d, d), radius = field_.radius(i), t = 1 - d2 / (radius * radius);
-            if (d2 < best) best = d2, at = i;
-            if (!(t > 0)) continue;
-            const uint8_t material = input.materials[i];
-            int n = 0;
-            while (n < kinds && seen[n] != material) ++n;
-            if (n == kMostSeen) continue;
-            if (n == kinds) seen[kinds++] = material, sums[material] = 0;
-            sums[material] += t * t * t;
+void Surface::count(int slot) {
+    BlockMesh& mesh = meshes_[slot];
+    mesh.vertexCount = mesh.codeCount = 0;
+    const Inside inside(field_, slot);
+    if (!inside.some || inside.every) return;
+    for (int z = 0; z < kSide; ++z)
+        for (int y = 0; y < kSide; ++y) {
+            for (int axis = 0; axis < 3; ++axis) mesh.vertexCount += uint32_t(countBits(inside.crossings(y, z, axis)));
+            inside.forCells(y, z,
+                            [&](int, unsigned corners) { mesh.codeCount += 3u * cubeCases().triangleCount[corners]; });
         }
-        if (kinds == 0) seen[kinds++] = input.materials[at], sums[input.materials[at]] = 1;
-        mix(seen, kinds, sums, mixture);
-        return at;
-    };
+}
 
-    uint32_t v = mesh.vertexBegin;
-    forCrossings(fill, [&](int x, int y, int z, int axis) {
-        int a = wideAt(x, y, z), b = a + kWideStep[axis];
-        // Clear of the nodes, so that no triangle is without area.
-        float t = std::clamp((SurfaceField::kIso - fill[a]) / (fill[b] - fill[a]), 0.02f, 0.98f);
-        auto mean = [&](const float* sums) {
-            return (sums[a] + t * (sums[b] - sums[a])) / (fill[a] + t * (fill[b] - fill[a]));
-        };
-        double at[3] = {double(place.x) * kSide + x, double(place.y) * kSide + y, double(place.z) * kSide + z};
-        at[axis] += t;
-        double cell = field_.cell();
-        positions[v] = {float(at[0] * cell), float(at[1] * cell), float(at[2] * cell)};
-        temperatures[v] = mean(temperature);
-        liquidFractions[v] = std::clamp(mean(liquid), 0.0f, 1.0f);
-        mobility_[v] = SurfaceField::mobility(mean(company));
-        mixtures[v] = {{input.materials[members[0]]}, {255}};
-        const int32_t origin = oneOrigin ? members[0] : look(positions[v], mixtures[v]);
-        materials[v] = input.materials[origin], bodies[v] = input.bodies[origin];
-        ++v;
-    });
+void Surface::emit(int slot, const SurfaceInput& input, int worker) {
+    const BlockMesh& mesh = meshes_[slot];
+    const Inside inside(field_, slot);
+    OriginFinder finder(field_, floats_.data() + size_t(worker) * OriginFinder::kFloats * stride_,
+                        ints_.data() + size_t(worker) * OriginFinder::kInts * stride_, stride_);
+    uint16_t* edges = edgeVertices_.data() + size_t(slot) * 3 * kNodes;
+    uint32_t vertex = 0;
+    for (int part = 0; part < 8; ++part) {
+        const int first[3] = {(part & 1) * kPart, (part >> 1 & 1) * kPart, (part >> 2) * kPart};
+        const float lower[3] = {float(first[0]), float(first[1]), float(first[2])};
+        const float higher[3] = {lower[0] + kPart, lower[1] + kPart, lower[2] + kPart};
+        bool looked = false;
+        for (int z = first[2]; z < first[2] + kPart; ++z)
+            for (int y = first[1]; y < first[1] + kPart; ++y)
+                for (int axis = 0; axis < 3; ++axis) {
+                    unsigned crossings = inside.crossings(y, z, axis) & (0xfu << first[0]);
+                    if (crossings != 0 && !looked) finder.look(slot, lower, higher), looked = true;
+                    for (; crossings != 0; crossings &= crossings - 1) {
+                        const int x = __builtin_ctz(crossings);
+                        emitVertex(slot, x, y, z, axis, finder, input, mesh.vertices.begin + vertex);
+                        edges[axis * kNodes + nodeAt(x, y, z)] = uint16_t(vertex++);
+                    }
+                }
+    }
 
     const CubeCases& cases = cubeCases();
-    uint32_t* out = indices.data() + mesh.indexBegin;
-    forCells(fill, [&](int x, int y, int z, int bits) {
-        for (int k = 0; k < 3 * cases.triangleCount[bits]; ++k) {
-            int edge = cases.triangles[bits][k], corner = cases.edgeStart[edge];
-            int ex = x + (corner & 1), ey = y + (corner >> 1 & 1), ez = z + (corner >> 2);
-            int owner = place.upper[(ex == kSide) | (ey == kSide) << 1 | (ez == kSide) << 2];
-            size_t slot = size_t(owner) * 3 * kNodes + (edge / 4) * kNodes + nodeAt(ex % kSide, ey % kSide, ez % kSide);
-            *out++ = meshes_[owner].vertexBegin + edgeVertices_[slot];
+    uint16_t* out = codes_.data() + mesh.codes.begin;
+    for (int z = 0; z < kSide; ++z)
+        for (int y = 0; y < kSide; ++y)
+            inside.forCells(y, z, [&](int x, unsigned corners) {
+                for (int k = 0; k < 3 * cases.triangleCount[corners]; ++k) {
+                    const int edge = cases.triangles[corners][k], corner = cases.edgeStart[edge];
+                    const int ex = x + (corner & 1), ey = y + (corner >> 1 & 1), ez = z + (corner >> 2);
+                    const int owner = (ex == kSide) | (ey == kSide) << 1 | (ez == kSide) << 2;
+                    *out++ = uint16_t((owner * 4 + edge / 4) * kNodes + nodeAt(ex % kSide, ey % kSide, ez % kSide));
+                }
+            });
+}
+
+void Surface::emitVertex(int slot, int x, int y, int z, int axis, const OriginFinder& finder, const SurfaceInput& input,
+                         uint32_t to) {
+    const SurfaceField::Block& block = field_.block(slot);
+    int next[3] = {x, y, z};
+    ++next[axis];
+    const int other = upper(block, (next[0] == kSide) | (next[1] == kSide) << 1 | (next[2] == kSide) << 2);
+    const float fill = field_.values(slot)[nodeAt(x, y, z)];
+    const float nextFill =
+        other < 0 ? 0 : field_.values(other)[nodeAt(next[0] % kSide, next[1] % kSide, next[2] % kSide)];
+    // Clear of the nodes, so that no triangle is without area.
+    const float t = std::clamp((SurfaceField::kIso - fill) / (nextFill - fill), 0.02f, 0.98f);
+    double at[3] = {double(block.x) * kSide + x, double(block.y) * kSide + y, double(block.z) * kSide + z};
+    at[axis] += double(t);
+    const double cell = field_.cell();
+    const Vec3 p{float(at[0] * cell), float(at[1] * cell), float(at[2] * cell)};
+
+    Origins& origins = origins_[to];
+    finder.find(p, origins);
+    float company = 0;
+    int nearest = 0;
+    bool oneMaterial = true;
+    for (int k = 0; k < Origins::kMost; ++k) {
+        company += origins.share[k] * field_.company(origins.row[k]);
+        if (origins.share[k] > origins.share[nearest]) nearest = k;
+        oneMaterial &= input.materials[origins.row[k]] == input.materials[origins.row[0]];
+    }
+    raw_[to] = {p.x, p.y, p.z, SurfaceField::mobility(company)};
+    rawMaterials_[to] = input.materials[origins.row[nearest]];
+    rawBodies_[to] = input.bodies[origins.row[nearest]];
+    if (oneMaterial)
+        rawMixtures_[to] = {{input.materials[origins.row[0]]}, {255}};
+    else
+        mix(origins, input.materials, rawMixtures_[to]);
+}
+
+// Puts what the blocks have side by side.
+void Surface::assemble(Tasks& tasks) {
+    const Array<int32_t>& order = field_.order();
+    uint32_t vertexSum = 0, codeSum = 0;
+    for (int32_t slot : order) {
+        BlockMesh& mesh = meshes_[slot];
+        mesh.vertexBegin = vertexSum, mesh.codeBegin = codeSum;
+        vertexSum += mesh.vertexCount, codeSum += mesh.codeCount;
+    }
+    positions.resizeRaw(vertexSum), normals.resizeRaw(vertexSum), smoothed_.resizeRaw(vertexSum);
+    temperatures.resizeRaw(vertexSum), liquidFractions.resizeRaw(vertexSum);
+    materials.resizeRaw(vertexSum), bodies.resizeRaw(vertexSum), mixtures.resizeRaw(vertexSum);
+    indices.resizeRaw(codeSum);
+    tasks.forBlocks(int(order.size()), 16, [&](int begin, int end, int, int) {
+        for (int b = begin; b < end; ++b) {
+            const BlockMesh& mesh = meshes_[order[b]];
+            const auto copy = [&](const auto& from, auto& to) {
+                std::copy_n(from.data() + mesh.vertices.begin, mesh.vertexCount, to.data() + mesh.vertexBegin);
+            };
+            copy(raw_, smoothed_), copy(rawMaterials_, materials), copy(rawBodies_, bodies);
+            copy(rawMixtures_, mixtures);
+            if (mesh.codeCount == 0) continue;
+            const uint16_t* edges[8];
+            uint32_t firsts[8];
+            for (int n = 0; n < 8; ++n) {
+                const int owner = upper(field_.block(order[b]), n);
+                edges[n] = owner < 0 ? nullptr : edgeVertices_.data() + size_t(owner) * 3 * kNodes;
+                firsts[n] = owner < 0 ? 0 : meshes_[owner].vertexBegin;
+            }
+            for (uint32_t k = 0; k < mesh.codeCount; ++k) {
+                const unsigned code = codes_[mesh.codes.begin + k], owner = code / (4 * kNodes);
+                indices[mesh.codeBegin + k] = firsts[owner] + edges[owner][code % (4 * kNodes)];
+            }
+        }
+    });
+}
+
+// Keeps what the particles' temperatures and phases are; false when they are what they were.
+bool Surface::keepWarmth(const SurfaceInput& input) {
+    const size_t count = size_t(std::max(input.count, 0));
+    bool other = warmth_.size() != count;
+    warmth_.resizeRaw(count);
+    for (size_t i = 0; i < count; ++i) {
+        const Warmth now{input.temperatures[i], input.liquidFractions[i]};
+        other |= std::memcmp(&warmth_[i], &now, sizeof now) != 0;
+        warmth_[i] = now;
+    }
+    return other;
+}
+
+void Surface::setWarmth(Tasks& tasks) {
+    const Array<int32_t>& order = field_.order();
+    tasks.forBlocks(int(order.size()), 16, [&](int begin, int end, int, int) {
+        for (int b = begin; b < end; ++b) {
+            const BlockMesh& mesh = meshes_[order[b]];
+            for (uint32_t k = 0; k < mesh.vertexCount; ++k) {
+                const Origins& from = origins_[mesh.vertices.begin + k];
+                float temperature = 0, liquid = 0;
+                for (int n = 0; n < Origins::kMost; ++n) {
+                    const Warmth& w = warmth_[from.row[n]];
+                    temperature += from.share[n] * w.temperature, liquid += from.share[n] * w.liquidFraction;
+                }
+                temperatures[mesh.vertexBegin + k] = temperature;
+                liquidFractions[mesh.vertexBegin + k] = std::clamp(liquid, 0.0f, 1.0f);
+            }
         }
     });
 }

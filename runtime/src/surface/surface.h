@@ -6,12 +6,15 @@
 #include "base/tasks.h"
 #include "base/types.h"
 #include "surface/field.h"
+#include "surface/origins.h"
+#include "surface/ranges.h"
 #include "surface/smooth.h"
 
 namespace thaw {
 
 // The mesh of the melt: a field on sparse blocks, marching cubes, smoothed, with attributes. Everything is kept between
-// calls, so that extracting as much as the last time allocates nothing.
+// calls: blocks around which nothing has changed are not meshed again, and extracting as much as the last time
+// allocates nothing. What comes out depends on the input alone.
 class Surface {
 public:
     explicit Surface(Allocator& allocator);
@@ -31,40 +34,54 @@ public:
     Array<Mixture> mixtures;
     Array<uint32_t> indices; // three per triangle, counter-clockwise from outside
 
-    int made() const { return made_; } // meshes since the beginning
+    int made() const { return made_; }                     // meshes since the beginning
+    int64_t meshedBlocks() const { return blocksMeshed_; } // of them all
 
 private:
-    // The input of the last mesh.
-    struct Last {
-        explicit Last(Allocator& a) : position(a), temperature(a), liquidFraction(a), material(a), body(a) {}
-        Array<Vec4> position;
-        Array<float> temperature, liquidFraction;
-        Array<uint8_t> material;
-        Array<uint16_t> body;
-        float spacing = 0, cellSize = 0;
-        int smoothing = -1;
-    };
-    bool same(const SurfaceInput& input, float cellSize, int smoothing) const;
-    void remember(const SurfaceInput& input, float cellSize, int smoothing);
-
-    // What a block brings to the mesh; its vertices and its indices are one range each.
+    // What a block brings to the mesh.
     struct BlockMesh {
-        uint32_t vertexBegin, vertexCount;
-        uint32_t indexBegin, indexCount;
+        RangePool::Range vertices, codes; // in the arrays by block below
+        uint32_t vertexCount = 0, codeCount = 0;
+        uint32_t vertexBegin = 0, codeBegin = 0; // in the mesh
+    };
+    struct Warmth {
+        float temperature, liquidFraction;
     };
 
     void clear();
-    void makeMesh(const SurfaceInput& input, float cellSize, Tasks& tasks);
-    void count(int block);
-    void emit(int block, const SurfaceInput& input);
+    void meshBlocks(const SurfaceInput& input, bool all, Tasks& tasks);
+    void count(int slot);
+    void emit(int slot, const SurfaceInput& input, int worker);
+    void emitVertex(int slot, int x, int y, int z, int axis, const OriginFinder& finder, const SurfaceInput& input,
+                    uint32_t to);
+    void assemble(Tasks& tasks);
+    bool keepWarmth(const SurfaceInput& input);
+    void setWarmth(Tasks& tasks);
 
     SurfaceField field_;
     MeshSmoother smoother_;
-    Array<BlockMesh> meshes_;
-    Array<uint16_t> edgeVertices_; // per block, axis and node: the vertex on that edge, counted from the block's first
-    Last last_;
+    Array<BlockMesh> meshes_; // by slot
+    Array<int32_t> changed_;
+    RangePool vertexPool_, codePool_;
+
+    // By block: vertices before smoothing, w their mobility, what they take their attributes from; and the corners of
+    // the triangles, as edges: which upper block, axis and node.
+    Array<Vec4> raw_;
+    Array<Origins> origins_;
+    Array<Mixture> rawMixtures_;
+    Array<uint8_t> rawMaterials_;
+    Array<uint16_t> rawBodies_;
+    Array<uint16_t> codes_;
+    Array<uint16_t> edgeVertices_; // by slot, axis and node: the vertex on that edge, counted from the block's first
+
+    Array<float> floats_; // for finding origins, by worker
+    Array<uint32_t> ints_;
+    int stride_ = 0;
+    Array<Vec4> smoothed_, unitNormals_;
+    Array<Warmth> warmth_; // of the particles
+    int smoothing_ = -1;   // of the mesh that is there
     int made_ = 0;
-    Array<float> mobility_; // per vertex: share of the smoothing that it takes, 0 in small drops
+    int64_t blocksMeshed_ = 0;
 };
 
 } // namespace thaw

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 the thaw authors
+// SPDX-License-Identifier: MIT
+#include "surface/ranges.h"
+#include "surface_bits.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace thaw;
+
+namespace {
+
+void take(Wax& wax, size_t i) { // as a world does: the last row comes to its place
+    const size_t last = wax.positions.size() - 1;
+    wax.positions[i] = wax.positions[last], wax.temperatures[i] = wax.temperatures[last];
+    wax.liquidFractions[i] = wax.liquidFractions[last], wax.materials[i] = wax.materials[last];
+    wax.bodies[i] = wax.bodies[last];
+    wax.positions.pop_back(), wax.temperatures.pop_back(), wax.liquidFractions.pop_back();
+    wax.materials.pop_back(), wax.bodies.pop_back();
+}
+
+Wax slab(Dice& dice) {
+    Wax wax;
+    for (int z = 0; z < 40; ++z)
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 40; ++x)
+                wax.add(wax.spacing * (Vec3{float(x), float(y), float(z)} + 0.2f * dice.direction()), wax.spacing,
+                        280 + 40 * dice.roll(), dice.roll(), uint8_t(x / 9), uint16_t(z / 20));
+    return wax;
+}
+
+} // namespace
+
+TEST_CASE("surface: what is meshed again in part has the bits of what is meshed anew") {
+    Dice dice;
+    Wax wax = slab(dice);
+    Mesher kept(3);
+    kept(wax);
+    int64_t blocks = kept.surface.meshedBlocks();
+    const int64_t all = blocks;
+    int parts = 0;
+    for (int round = 0; round < 40; ++round) {
+        // A corner flows; now and then some leave, come, melt together, fly off, or are of another material.
+        for (size_t i = 0; i < wax.positions.size(); ++i) {
+            Vec4& p = wax.positions[i];
+            if (p.x + p.z < 0.02f + 0.0002f * float(round)) p.setXyz(p.xyz() + 0.1f * wax.spacing * dice.direction());
+        }
+        if (round % 3 == 0)
+            for (int k = 0; k < 5; ++k) take(wax, size_t(dice.roll() * float(wax.positions.size())));
+        if (round % 4 == 3)
+            for (int k = 0; k < 3; ++k) take(wax, wax.positions.size() - 1);
+        if (round % 4 == 1)
+            for (int k = 0; k < 5; ++k)
+                wax.add(Vec3{0.08f * dice.roll(), 0.02f + 0.01f * dice.roll(), 0.08f * dice.roll()},
+                        wax.spacing * (1 + 0.5f * dice.roll()), 350, 1, 5);
+        if (round % 5 == 2) wax.positions[100].y += 0.03f;
+        if (round % 7 == 3) wax.materials[200] ^= 3, wax.bodies[300] ^= 1;
+        if (round % 6 == 4) std::swap(wax.positions[7], wax.positions[4000]);
+        for (float& t : wax.temperatures) t += 0.01f;
+        kept(wax);
+        Mesher fresh;
+        fresh(wax);
+        CAPTURE(round);
+        REQUIRE(sameBits(kept.surface, fresh.surface));
+        const MeshFacts facts = factsOf(kept.surface);
+        CHECK(facts.badEdges == 0);
+        CHECK(facts.badVertices == 0);
+        parts += kept.surface.meshedBlocks() - blocks < all / 2;
+        blocks = kept.surface.meshedBlocks();
+    }
+    CHECK(parts >= 30); // it was not all meshed anew
+}
+
+TEST_CASE("surface: a change meshes the blocks around it, warmth alone none") {
+    Dice dice;
+    Wax wax = slab(dice);
+    Mesher mesher;
+    mesher(wax);
+    const int64_t all = mesher.surface.meshedBlocks();
+    for (float& t : wax.temperatures) t += 1;
+    mesher(wax);
+    CHECK(mesher.surface.meshedBlocks() == all);
+    CHECK(mesher.surface.made() == 2);
+    wax.positions[0].x += 1e-6f; // a corner
+    mesher(wax);
+    CHECK(mesher.surface.meshedBlocks() > all);
+    CHECK(mesher.surface.meshedBlocks() <= all + 8);
+}
+
+TEST_CASE("surface: what changes for long takes no more memory") {
+    Dice dice;
+    Wax wax = slab(dice);
+    Mesher mesher;
+    size_t most = 0;
+    const std::vector<Vec4> rest = wax.positions;
+    for (int round = 0; round < 60; ++round) {
+        for (size_t i = 0; i < wax.positions.size() / 3; ++i)
+            wax.positions[i].setXyz(rest[i].xyz() + wax.spacing * 0.5f * dice.direction());
+        mesher(wax);
+        if (round == 19) most = mesher.allocator.bytes();
+    }
+    CHECK(mesher.allocator.bytes() < most + most / 8);
+    Mesher fresh;
+    CHECK(sameBits(mesher.surface, fresh(wax)));
+}
+
+TEST_CASE("surface: ranges do not overlap, stay where they fit, and are used again") {
+    Allocator allocator;
+    RangePool pool(allocator);
+    Dice dice;
+    RangePool::Range ranges[50];
+    uint32_t counts[50] = {};
+    size_t size = 0;
+    for (int round = 0; round < 4000; ++round) {
+        const size_t k = size_t(dice.roll() * 50);
+        const RangePool::Range before = ranges[k];
+        counts[k] = dice.roll() < 0.2f ? 0 : uint32_t(dice.roll() * dice.roll() * 1500);
+        pool.fit(ranges[k], counts[k]);
+        REQUIRE(ranges[k].capacity >= counts[k]);
+        if (counts[k] > 0 && counts[k] <= before.capacity && 2 * counts[k] >= before.capacity)
+            CHECK(ranges[k].begin == before.begin);
+        CHECK(ranges[k].capacity <= 4 * counts[k] + 64);
+        for (size_t n = 0; n < 50; ++n) {
+            if (n == k || ranges[n].capacity == 0 || ranges[k].capacity == 0) continue;
+            const bool apart = ranges[n].begin + ranges[n].capacity <= ranges[k].begin ||
+                               ranges[k].begin + ranges[k].capacity <= ranges[n].begin;
+            REQUIRE(apart);
+        }
+        REQUIRE(ranges[k].begin + ranges[k].capacity <= pool.size());
+        if (round == 2000) size = pool.size();
+    }
+    CHECK(pool.size() < size + size / 4);
+}
