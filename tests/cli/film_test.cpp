@@ -114,3 +114,26 @@ TEST_CASE("an animation that cannot be made is refused before the melt") {
     setenv("PATH", path.c_str(), 1);
     CHECK(namesIn(folder.path("")) == std::set<std::string>{"s.json", "file"});
 }
+
+TEST_CASE("validate surface scenes steps the scenes of a folder and looks at their meshes") {
+    const Folder folder;
+    // Solid all along: a cube, whose mesh has the volume of what it holds.
+    folder.write("scenes/small.json",
+                 replaced(kSmallScene, "\"particleSpacing\": 0.005", "\"particleSpacing\": 0.0015"));
+    const Answer answer =
+        player({"validate", "surface", "scenes", "--scenes", folder.path("scenes"), "--out", folder.path("rows.csv")});
+    CAPTURE(answer.out);
+    CHECK(answer.exitCode == 0);
+    CHECK(contains(answer.out, "small: edges with one triangle"));
+    CHECK(contains(answer.out, "3 rows, 0 out"));
+    const std::string rows = readFile(folder.path("rows.csv"));
+    CHECK(contains(rows, "edges with more than two\",at most,0,0,0,0,1"));
+    CHECK(contains(rows, "volume against the particles', frame "));
+    const Answer none = player({"validate", "surface", "scenes", "--scenes", folder.path("nowhere")});
+    CHECK(none.exitCode == 1);
+    CHECK(contains(none.out, "no scenes in"));
+    folder.write("scenes/bad.json", "{}");
+    const Answer bad = player({"validate", "surface", "scenes", "--scenes", folder.path("scenes")});
+    CHECK(bad.exitCode == 1);
+    CHECK(contains(bad.out, "bad.json: at /: key 'thawScene' is missing"));
+}
