@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // A particle of melt as a square that faces the light or the eye and holds its ellipsoid (splat.glsl). The pass is one of
-// CAMERA_PASS, COLOR_PASS, KEY_PASS, FLAME_PASS.
+// CAMERA_PASS, KEY_PASS, FLAME_PASS.
 
 layout(location = 0) in vec4 aCenter; // x y z; half axis along the surface, m
 layout(location = 1) in vec4 aAxis;   // out of the surface, unit; the half axis along it over the other
