@@ -234,6 +234,7 @@ std::string Report::json() const {
                         {"finestLevel", plan_.work.finestLevel},
                         {"coarsestLevel", plan_.work.coarsestLevel},
                         {"splits", plan_.work.splits},
+                        {"surfaceLevel", plan_.work.surfaceLevel},
                         {"lateAfter", plan_.work.lateAfter},
                         {"predictedMilliseconds", plan_.predictedMs},
                         {"units", plan_.units},

@@ -8,7 +8,7 @@ using namespace thaw;
 
 namespace {
 
-constexpr thawWork kFull{4, 4, 12, 1, 1.0f, 1, 80, 16, 0, 3, 2048, 0};
+constexpr thawWork kFull{4, 4, 12, 1, 1.0f, 1, 80, 16, 0, 3, 2048, 0, 0};
 
 Needs busy() {
     Needs n;

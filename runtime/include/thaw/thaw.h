@@ -117,7 +117,8 @@ typedef struct thawQuat {
 /* ---- hooks ------------------------------------------------------------------------------------------------------ */
 
 /* Memory of what a world steps: particles, lists, scratch, surface. Both NULL: the C++ runtime's. alloc must return
- * memory aligned to `alignment` (a power of two, at most 64) or NULL. Called from the thread that calls thaw only.
+ * memory aligned to `alignment` (a power of two, at most 64) or NULL. Called from the thread that calls thaw, and
+ * from the one that makes a mesh after thawWorld_StartSurface, one at a time.
  * Creating bodies and colliders also uses the C++ runtime while it works, and rays use Embree's own memory. */
 typedef struct thawAllocator {
     void* (*alloc)(size_t size, size_t alignment, void* user);
@@ -137,7 +138,7 @@ typedef void thawTask(void* context);
 
 /* The host's threads. enqueue hands over one task and returns a handle for finish, or NULL when it already ran it
  * inline; finish blocks until that task is done. Both are called from the thread that calls thaw, at most workerCount -
- * 1 tasks are in flight. All NULL: a pool of workerCount - 1 own threads. */
+ * 1 tasks are in flight, and one more between thawWorld_StartSurface and thawWorld_FinishSurface. All NULL: a pool of workerCount - 1 own threads. */
 typedef struct thawTaskSystem {
     int workerCount; /* threads that take part, the caller included; range 1..64, default 1 */
     void* (*enqueue)(thawTask* task, void* context, void* user);
@@ -601,6 +602,8 @@ typedef struct thawWork {
     int32_t finestLevel;   /* particles get no finer than 2^this times the finest mass; range 0..3, default 0 */
     int32_t coarsestLevel; /* and no coarser; range 0..3, default 3; finestLevel goes before it */
     int32_t splits;        /* particles that may come to be by splitting in a step; range 1..1e6, default 2048 */
+    int32_t surfaceLevel;  /* of the mesh: its cells are 2^(surfaceLevel / 3) times as wide as thawSurfaceDef.cellSize;
+                              range 0..3, default 0. A step leaves it to the extractions that follow */
     int32_t lateAfter;     /* range 0..1e9, default 0: never. A step that ran late notes here in its plan after how many
                               of its safe points that was; with the same number it gives up the same again */
 } thawWork;
@@ -617,11 +620,13 @@ typedef struct thawBudget {
     uint32_t structSize, cookie;
     thawBudgetMode mode; /* default thawBudget_work */
     float milliseconds;  /* range 0..1e9, default 4; 0: the least work there is */
+    float surfaceMilliseconds; /* that making the mesh may take where the governor chooses: it chooses surfaceLevel by
+                                  what the last meshes took, or by fixed prices with units; range 0..1e9, default 0: any */
     float units;    /* range 0..1e12, default 4000; 1000 are about what a quiet machine with two cores does in 1 ms */
     thawWork work;  /* of thawBudget_work. Default: 4 sub-steps at most, 8 pressure, 12 viscosity, heat every step, all
                        rays, 80 sub-cycles of conduction, 16 rays a source */
     thawWork least; /* what the governor never goes below. Default: 1 sub-step, 3 pressure, 6 viscosity, heat every 8th
-                       step, 0.05 of the rays, 8 sub-cycles, 4 rays a source, finestLevel 3 */
+                       step, 0.05 of the rays, 8 sub-cycles, 4 rays a source, finestLevel 3, surfaceLevel 3 */
     thawWork most;  /* and never above; goes before it. Default: 16 sub-steps, 8 of them at least, 64 pressure, 200
                        viscosity, heat every step, all rays, 1000 sub-cycles, 64 rays a source, levels 0 to 3.
                        One knob the same in both: it stays there */
@@ -709,10 +714,41 @@ typedef struct thawSurfaceView {
     const uint8_t* mixtures; /* 8 of each vertex: index1 - 1 of up to four materials around it, then their shares in
                                 255ths, the largest first; they sum to 255, what is not used is 0 */
     const uint32_t* indices; /* three per triangle, counter-clockwise from outside */
+    int32_t level;           /* thawWork.surfaceLevel that it was made with */
 } thawSurfaceView;
-/* Makes the mesh of everything that is in the world. Watertight; empty when there are no particles. As long as nothing
- * has changed it is the same mesh and costs next to nothing. */
+/* Makes the mesh of everything that is in the world. Watertight; empty when there are no particles. What has not
+ * changed since the last time is not made again: only blocks of 8 cells around what moved. The same bits on any number
+ * of threads, whatever was extracted before. The arrays belong to the world, until the next extraction or
+ * thawWorld_StartSurface. */
 THAW_API thawResult thawWorld_ExtractSurface(thawWorld* world, const thawSurfaceDef* def, thawSurfaceView* out);
+
+/* The same beside what the caller goes on with. Start copies what is in the world now (0.1 ms for 16,000 particles) and
+ * begins its mesh on a thread of the world's own, or on a task of thawTaskSystem; finish waits for it. In between the
+ * world may be stepped, changed and destroyed; the mesh is that of the start. A host that finishes the last frame's
+ * mesh before it starts the next one draws with a frame of latency and never waits. One at a time. The arrays belong to
+ * the world, until the next thawWorld_FinishSurface: they can be drawn from while the next one is made. */
+THAW_API thawResult thawWorld_StartSurface(thawWorld* world, const thawSurfaceDef* def);
+THAW_API thawResult thawWorld_FinishSurface(thawWorld* world, thawSurfaceView* out);
+
+/* How a host's vertices look. Offsets are bytes into a vertex, multiples of the size of the number there, or -1: left
+ * out. */
+typedef struct thawSurfaceBuffers {
+    uint32_t structSize, cookie;
+    void* vertices;         /* aligned to 4; a mapped vertex buffer, say: written vertex by vertex, never read */
+    int32_t vertexCapacity; /* vertices that there is room for */
+    int32_t vertexStride;   /* bytes from one to the next, a multiple of 4; range 4..4096, default 32 */
+    int32_t positionOffset, normalOffset;             /* three floats; default 0 and 12 */
+    int32_t temperatureOffset, liquidFractionOffset;  /* a float; default 24 and 28 */
+    int32_t materialOffset, bodyOffset, mixtureOffset; /* 1, 2 and 8 bytes as in thawSurfaceView; default -1 */
+    void* indices;
+    int32_t indexCapacity;
+    int32_t indexSize; /* bytes, 2 or 4; default 4. Two number 65,536 vertices */
+} thawSurfaceBuffers;
+THAW_API void thawInitSurfaceBuffers(thawSurfaceBuffers* buffers);
+/* Writes a mesh in the host's own layout. Fails, with nothing written, with thawResult_capacity when it does not fit;
+ * the message says how much is needed, and view says it before. */
+THAW_API thawResult thawWorld_WriteSurface(thawWorld* world, const thawSurfaceView* view,
+                                           const thawSurfaceBuffers* buffers);
 
 typedef struct thawLedger {
     double massAdded, massRemoved, massNow; /* kg */

@@ -4,6 +4,7 @@
 // The C boundary: every argument is checked here, every exception stops here, every refusal leaves the world as it was
 // and a message that names the field and the value.
 #include "api/defs.h"
+#include "api/surface_buffers.h"
 #include "base/build.h"
 #include "thaw/thaw.h"
 #include "world/world.h"
@@ -21,7 +22,10 @@ struct thawWorld {
 
 namespace {
 
+using thaw::SurfaceAttribute;
+using thaw::surfaceAttributes;
 using thaw::World;
+using thaw::writeSurface;
 
 // C lets a host store any int in an enum; reading that as the enum is undefined in C++.
 template <class Enum> int valueOf(const Enum& e) {
@@ -283,7 +287,38 @@ void checkWork(Check& c, const char* of, const thawWork& w) {
     range("finestLevel", w.finestLevel, 0, 3);
     range("coarsestLevel", w.coarsestLevel, 0, 3);
     range("splits", w.splits, 1, 1e6);
+    range("surfaceLevel", w.surfaceLevel, 0, 3);
     range("lateAfter", w.lateAfter, 0, 1e9);
+}
+
+void checkSurfaceDef(Check& c, const thawSurfaceDef* d) {
+    c.initialised("surfaceDef", d);
+    if (!c.ok()) return;
+    c.range("cellSize", d->cellSize, 0.25, 4);
+    c.range("smoothing", d->smoothing, 0, 10);
+}
+
+void checkSurfaceBuffers(Check& c, const thawSurfaceView& view, const thawSurfaceBuffers& b) {
+    c.range("vertexStride", b.vertexStride, 4, 4096);
+    if (c.ok() && (b.vertexStride % 4 != 0 || reinterpret_cast<uintptr_t>(b.vertices) % 4 != 0))
+        c.fail(thawResult_invalidArgument, "vertices, vertexStride: must be multiples of 4");
+    for (const SurfaceAttribute& f : surfaceAttributes(b))
+        if (f.offset != -1 && (f.offset < 0 || f.offset + f.bytes > b.vertexStride || f.offset % f.align != 0))
+            c.fail(thawResult_invalidArgument, "%s: %d bytes there are not within vertexStride, or not aligned to %d",
+                   f.name, f.bytes, f.align);
+    if (b.indexSize != 2 && b.indexSize != 4)
+        c.fail(thawResult_invalidArgument, "indexSize: must be 2 or 4, got %d", b.indexSize);
+    if (!c.ok()) return;
+    if (!b.vertices && view.vertexCount > 0) c.fail(thawResult_invalidArgument, "vertices: is NULL");
+    if (!b.indices && view.triangleCount > 0) c.fail(thawResult_invalidArgument, "indices: is NULL");
+    if (b.indexSize == 2 && view.vertexCount > 65536)
+        c.fail(thawResult_invalidArgument, "indexSize: 2 bytes cannot number %d vertices", view.vertexCount);
+    if (b.vertexCapacity < view.vertexCount)
+        c.fail(thawResult_capacity, "vertexCapacity: %d vertices are needed, got room for %d", view.vertexCount,
+               b.vertexCapacity);
+    if (b.indexCapacity < 3 * view.triangleCount)
+        c.fail(thawResult_capacity, "indexCapacity: %d indices are needed, got room for %d", 3 * view.triangleCount,
+               b.indexCapacity);
 }
 
 void checkBudget(Check& c, const thawBudget& b) {
@@ -294,6 +329,7 @@ void checkBudget(Check& c, const thawBudget& b) {
         c.fail(thawResult_invalidArgument, "budget.mode: is not a thawBudgetMode, got %d", mode);
     if (mode == thawBudget_milliseconds) c.range("budget.milliseconds", b.milliseconds, 0, 1e9);
     if (mode == thawBudget_units) c.range("budget.units", b.units, 0, 1e12);
+    if (mode != thawBudget_work) c.range("budget.surfaceMilliseconds", b.surfaceMilliseconds, 0, 1e9);
     if (mode == thawBudget_work) return checkWork(c, "work", b.work);
     checkWork(c, "least", b.least);
     checkWork(c, "most", b.most);
@@ -335,9 +371,9 @@ thawBudget defaultBudget() {
     b.structSize = sizeof b, b.cookie = thaw::kDefCookie;
     b.mode = thawBudget_work;
     b.milliseconds = 4, b.units = 4000;
-    b.work = {4, 8, 12, 1, 1.0f, 1, 80, 16, 0, 3, 2048, 0};
-    b.least = {1, 3, 6, 8, 0.05f, 1, 8, 4, 3, 3, 2048, 0};
-    b.most = {16, 64, 200, 1, 1.0f, 8, 1000, 64, 0, 3, 2048, 0};
+    b.work = {4, 8, 12, 1, 1.0f, 1, 80, 16, 0, 3, 2048, 0, 0};
+    b.least = {1, 3, 6, 8, 0.05f, 1, 8, 4, 3, 3, 2048, 3, 0};
+    b.most = {16, 64, 200, 1, 1.0f, 8, 1000, 64, 0, 3, 2048, 0, 0};
     return b;
 }
 
@@ -917,12 +953,45 @@ void thawInitSurfaceDef(thawSurfaceDef* def) {
 thawResult thawWorld_ExtractSurface(thawWorld* world, const thawSurfaceDef* def, thawSurfaceView* out) {
     if (out) *out = {};
     return guarded(world, [&](World& w, Check& c) {
-        c.initialised("surfaceDef", def);
-        if (!c.ok()) return;
+        checkSurfaceDef(c, def);
         if (!out) c.fail(thawResult_invalidArgument, "out: is NULL");
-        c.range("cellSize", def->cellSize, 0.25, 4);
-        c.range("smoothing", def->smoothing, 0, 10);
+        if (w.surfaceUnderWay()) c.fail(thawResult_invalidArgument, "a surface is under way: finish it first");
         if (c.ok()) w.extractSurface(*def, *out);
+    });
+}
+
+thawResult thawWorld_StartSurface(thawWorld* world, const thawSurfaceDef* def) {
+    return guarded(world, [&](World& w, Check& c) {
+        checkSurfaceDef(c, def);
+        if (w.surfaceUnderWay()) c.fail(thawResult_invalidArgument, "a surface is under way: finish it first");
+        if (c.ok()) w.startSurface(*def);
+    });
+}
+
+thawResult thawWorld_FinishSurface(thawWorld* world, thawSurfaceView* out) {
+    if (out) *out = {};
+    return guarded(world, [&](World& w, Check& c) {
+        if (!out) c.fail(thawResult_invalidArgument, "out: is NULL");
+        if (!w.surfaceUnderWay()) c.fail(thawResult_invalidArgument, "no surface is under way: start one first");
+        if (c.ok()) w.finishSurface(*out);
+    });
+}
+
+void thawInitSurfaceBuffers(thawSurfaceBuffers* buffers) {
+    if (!buffers) return;
+    *buffers = thawSurfaceBuffers{};
+    buffers->structSize = sizeof *buffers, buffers->cookie = thaw::kDefCookie;
+    buffers->vertexStride = 32, buffers->indexSize = 4;
+    buffers->normalOffset = 12, buffers->temperatureOffset = 24, buffers->liquidFractionOffset = 28;
+    buffers->materialOffset = buffers->bodyOffset = buffers->mixtureOffset = -1;
+}
+
+thawResult thawWorld_WriteSurface(thawWorld* world, const thawSurfaceView* view, const thawSurfaceBuffers* buffers) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!view) c.fail(thawResult_invalidArgument, "view: is NULL");
+        c.initialised("surfaceBuffers", buffers);
+        if (c.ok()) checkSurfaceBuffers(c, *view, *buffers);
+        if (c.ok()) writeSurface(*view, *buffers, w.tasks);
     });
 }
 

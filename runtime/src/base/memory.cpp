@@ -5,6 +5,7 @@
 namespace thaw {
 
 void* Allocator::allocate(size_t size, size_t alignment) {
+    const std::lock_guard<std::mutex> lock(mutex_);
     void* memory = hook_.alloc ? hook_.alloc(size, alignment, hook_.user)
                                : ::operator new(size, std::align_val_t(alignment), std::nothrow);
     if (!memory) throw std::bad_alloc();
@@ -15,6 +16,7 @@ void* Allocator::allocate(size_t size, size_t alignment) {
 
 void Allocator::release(void* memory, size_t size, size_t alignment) noexcept {
     if (!memory) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
     bytes_ -= size;
     if (hook_.free)
         hook_.free(memory, size, hook_.user);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <mutex>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -27,6 +28,7 @@ public:
 
 private:
     thawAllocator hook_;
+    std::mutex mutex_; // a mesh may be made while the world steps
     size_t bytes_ = 0, calls_ = 0;
 };
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "base/tasks.h"
 
+#include "base/float_mode.h"
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -33,17 +35,6 @@ inline void relax() {
 int blockEnd(const Tasks::Job& job, int begin) {
     return job.count - begin <= job.blockSize ? job.count : begin + job.blockSize;
 }
-
-// Rounding, denormals and exception masks of the calling thread. Workers take over the caller's: a host that flushes
-// denormals on its own thread only would otherwise get bits that depend on who ran which block.
-struct FloatMode {
-#if defined(__SSE2__)
-    unsigned word = _mm_getcsr() & ~0x3fu; // without the sticky status flags
-    void apply() const { _mm_setcsr(word); }
-#else
-    void apply() const {}
-#endif
-};
 
 } // namespace
 

@@ -67,7 +67,7 @@ struct Inside {
 
 // Shares of the materials of a vertex's particles: the four with the largest sums, of equals the one with the lower
 // index.
-void mix(const Origins& origins, const uint8_t* materials, Surface::Mixture& out) {
+void mix(const Origins& origins, const uint8_t* materials, SurfaceMesh::Mixture& out) {
     uint8_t seen[Origins::kMost];
     float sums[Origins::kMost];
     int kinds = 0;
@@ -97,16 +97,13 @@ void mix(const Origins& origins, const uint8_t* materials, Surface::Mixture& out
 } // namespace
 
 Surface::Surface(Allocator& allocator)
-    : positions(allocator), normals(allocator), temperatures(allocator), liquidFractions(allocator),
-      materials(allocator), bodies(allocator), mixtures(allocator), indices(allocator), field_(allocator),
-      smoother_(allocator), meshes_(allocator), changed_(allocator), vertexPool_(allocator), codePool_(allocator),
-      raw_(allocator), origins_(allocator), rawMixtures_(allocator), rawMaterials_(allocator), rawBodies_(allocator),
-      codes_(allocator), edgeVertices_(allocator), floats_(allocator), ints_(allocator), smoothed_(allocator),
-      unitNormals_(allocator), warmth_(allocator) {}
+    : SurfaceMesh(allocator), field_(allocator), smoother_(allocator), meshes_(allocator), changed_(allocator),
+      vertexPool_(allocator), codePool_(allocator), raw_(allocator), origins_(allocator), rawMixtures_(allocator),
+      rawMaterials_(allocator), rawBodies_(allocator), codes_(allocator), edgeVertices_(allocator), floats_(allocator),
+      ints_(allocator), smoothed_(allocator), unitNormals_(allocator), warmth_(allocator) {}
 
-void Surface::clear() {
-    positions.clear(), normals.clear(), temperatures.clear(), liquidFractions.clear(), materials.clear(),
-        bodies.clear(), mixtures.clear(), indices.clear();
+void Surface::drop() {
+    clear();
     field_.clear();
     smoothing_ = -1;
 }
@@ -131,7 +128,7 @@ void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, 
         setWarmth(tasks);
         ++made_;
     } catch (...) {
-        clear();
+        drop();
         throw;
     }
 }

@@ -6,6 +6,7 @@
 #include "base/tasks.h"
 #include "base/types.h"
 #include "surface/field.h"
+#include "surface/mesh.h"
 #include "surface/origins.h"
 #include "surface/ranges.h"
 #include "surface/smooth.h"
@@ -15,7 +16,7 @@ namespace thaw {
 // The mesh of the melt: a field on sparse blocks, marching cubes, smoothed, with attributes. Everything is kept between
 // calls: blocks around which nothing has changed are not meshed again, and extracting as much as the last time
 // allocates nothing. What comes out depends on the input alone.
-class Surface {
+class Surface : public SurfaceMesh {
 public:
     explicit Surface(Allocator& allocator);
 
@@ -23,16 +24,6 @@ public:
     // Throws std::bad_alloc when the allocator refuses; the arrays are then empty. Input that is what it was the last
     // time leaves the mesh as it is and takes a look at it only.
     void extract(const SurfaceInput& input, float cellSize, int smoothing, Tasks& tasks);
-
-    Array<Vec3> positions, normals;
-    Array<float> temperatures, liquidFractions;
-    Array<uint8_t> materials;
-    Array<uint16_t> bodies;
-    struct Mixture { // the largest share first; shares sum to 255
-        uint8_t material[4], share[4];
-    };
-    Array<Mixture> mixtures;
-    Array<uint32_t> indices; // three per triangle, counter-clockwise from outside
 
     int made() const { return made_; }                     // meshes since the beginning
     int64_t meshedBlocks() const { return blocksMeshed_; } // of them all
@@ -48,7 +39,7 @@ private:
         float temperature, liquidFraction;
     };
 
-    void clear();
+    void drop();
     void meshBlocks(const SurfaceInput& input, bool all, Tasks& tasks);
     void count(int slot);
     void emit(int slot, const SurfaceInput& input, int worker);

@@ -95,22 +95,4 @@ void World::forget(size_t slot) {
         if (uint32_t& fine = particles.fine[static_cast<size_t>(i)]; fine > gone.end) fine -= count;
 }
 
-void World::expandForSurface() {
-    Expanded& e = expanded_;
-    const auto clear = [](auto&... arrays) { (arrays.clear(), ...); };
-    clear(e.position, e.temperature, e.liquidFraction, e.material, e.body);
-    const auto add = [&](size_t k, Vec3 x, float support) {
-        e.position.push({x.x, x.y, x.z, support}), e.temperature.push(particles.temperature[k]);
-        e.liquidFraction.push(particles.liquidFraction[k]);
-        e.material.push(particles.material[k]), e.body.push(particles.body[k]);
-    };
-    const float finest = supportOf(def.particleSpacing, 0);
-    for (size_t k = 0; k < static_cast<size_t>(particles.count); ++k) {
-        if (particles.level[k] > 0 && particles.fine[k])
-            reference_.forPoints(particles, k, [&](Vec3 x, uint32_t) { add(k, x, finest); });
-        else
-            add(k, particles.position[k].xyz(), particles.position[k].w);
-    }
-}
-
 } // namespace thaw

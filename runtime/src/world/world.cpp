@@ -62,9 +62,9 @@ bool freeSlot(const std::vector<Slot>& slots, int most, const char* field, const
 World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
       motion_(allocator), rigid_(allocator), rigidLiquid_(allocator), heat_(allocator), hold_(allocator),
-      anchors_(allocator), bonds_(allocator), surface_(allocator), reference_(allocator), levels_(allocator),
+      anchors_(allocator), bonds_(allocator), surface_(allocator, d.tasks), reference_(allocator), levels_(allocator),
       control_(allocator), volume_(allocator), invDensity_(allocator), featureSizes_(allocator),
-      blockTotals_(allocator), expanded_(allocator) {
+      blockTotals_(allocator) {
     particles.allocate(d.maxParticles);
     const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
     volume_.resize(n), invDensity_.resize(n);
@@ -84,6 +84,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     int wanted = subStepsWanted(dt);
     const Governor::Choice choice = chooseWork(governor_, units_, now, budget, wanted);
     thawWork work = choice.work;
+    work.surfaceLevel = chooseSurfaceLevel(surfaceLevel_, surfaceUnits_, budget);
     heatTimePending_ += static_cast<double>(dt) * def.thermalTimeScale;
     now.heatDue = heatDue(work);
     plan = makePlan(now, work);
@@ -407,7 +408,9 @@ thawPlan World::previewPlan(const thawBudget& budget) const {
     Needs n = needs();
     const int wanted = subStepsWanted(1.0f / 60);
     Governor milliseconds = governor_, units = units_; // choosing moves their memory; a preview must not
-    const Governor::Choice c = chooseWork(milliseconds, units, n, budget, wanted);
+    Governor::Choice c = chooseWork(milliseconds, units, n, budget, wanted);
+    SurfaceLevel learnt = surfaceLevel_, fixed = surfaceUnits_;
+    c.work.surfaceLevel = chooseSurfaceLevel(learnt, fixed, budget);
     n.heatDue = heatDue(c.work);
     thawPlan p = makePlan(n, c.work);
     p.predictedMs = budget.mode == thawBudget_milliseconds ? c.predictedMs : 0;
@@ -917,31 +920,6 @@ void World::removeCollider(uint32_t index) {
     colliderSlots[index].alive = false;
     ++colliderVersion_, ++wallVersion_;
     lookForHold();
-}
-
-void World::extractSurface(const thawSurfaceDef& d, thawSurfaceView& out) {
-    if (anyCoarse_) {
-        expandForSurface();
-        const Expanded& e = expanded_;
-        surface_.extract({static_cast<int>(e.position.size()), e.position.data(), e.temperature.data(),
-                          e.liquidFraction.data(), e.material.data(), e.body.data(), def.particleSpacing},
-                         d.cellSize, d.smoothing, tasks);
-    } else {
-        surface_.extract({particles.count, particles.position.data(), particles.temperature.data(),
-                          particles.liquidFraction.data(), particles.material.data(), particles.body.data(),
-                          def.particleSpacing},
-                         d.cellSize, d.smoothing, tasks);
-    }
-    out = {static_cast<int32_t>(surface_.positions.size()),
-           static_cast<int32_t>(surface_.indices.size() / 3),
-           surface_.positions.empty() ? nullptr : &surface_.positions[0].x,
-           surface_.normals.empty() ? nullptr : &surface_.normals[0].x,
-           surface_.temperatures.data(),
-           surface_.liquidFractions.data(),
-           surface_.materials.data(),
-           surface_.bodies.data(),
-           surface_.mixtures.empty() ? nullptr : surface_.mixtures[0].material,
-           surface_.indices.data()};
 }
 
 uint64_t World::stateHash() const {

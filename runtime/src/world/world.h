@@ -18,9 +18,10 @@
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
 #include "particles/particles.h"
-#include "surface/surface.h"
+#include "surface/maker.h"
 #include "world/governor.h"
 #include "world/plan.h"
+#include "world/surface_level.h"
 
 #include <string>
 #include <vector>
@@ -75,6 +76,9 @@ public:
     void removeShape(uint32_t index);
     thawShapeState shapeState(uint32_t index) const;
     void extractSurface(const thawSurfaceDef& def, thawSurfaceView& out);
+    bool surfaceUnderWay() const { return surface_.busy(); }
+    void startSurface(const thawSurfaceDef& def);
+    void finishSurface(thawSurfaceView& out);
     uint64_t stateHash() const;
     thawLedger ledger() const;
     thawCounters counters() const;
@@ -142,7 +146,10 @@ private:
     // Adds the points of a body to the reference, in the order of their groups. Returns where its origin is.
     Vec3 refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume, bool bends);
     void forget(size_t slot);
-    void expandForSurface();
+    SurfaceInput surfaceInput();
+    SurfaceMaker::Wanted surfaceWanted(const thawSurfaceDef& d) const;
+    void learnSurface(int level);
+    int chooseSurfaceLevel(SurfaceLevel& learnt, SurfaceLevel& units, const thawBudget& b) const;
     bool mayBeCoarse() const; // some body
 
     Neighbors neighbors_;
@@ -153,7 +160,10 @@ private:
     Hold hold_;
     Anchors anchors_;
     Bonds bonds_;
-    Surface surface_;
+    SurfaceMaker surface_;
+    SurfaceLevel surfaceLevel_{SurfaceLevel::Prices::learnt}, surfaceUnits_{SurfaceLevel::Prices::fixed};
+    int64_t meshedBlocks_ = 0; // when it was last looked at
+    int startedLevel_ = 0;     // of the mesh under way
     Reference reference_;
     Levels levels_;
     Control control_;
@@ -193,13 +203,6 @@ private:
     bool anyCoarse_ = false;     // some particle of level 1 or higher
     bool levelsChanged_ = false; // in the last step
     bool full_ = false;          // and some could not split for want of room
-    struct Expanded {            // what the surface is made of: the finest points in place of what is coarse
-        explicit Expanded(Allocator& a) : position(a), temperature(a), liquidFraction(a), material(a), body(a) {}
-        Array<Vec4> position;
-        Array<float> temperature, liquidFraction;
-        Array<uint8_t> material;
-        Array<uint16_t> body;
-    } expanded_;
 
     // Ledger and counters of the last measurement.
     double massAdded_ = 0, massRemoved_ = 0, energyAdded_ = 0, energyRemoved_ = 0;

@@ -119,17 +119,17 @@ void convergence(Findings& found) {
         for (size_t k = 0; k < x.size(); ++k) sum += (x[k] - reference[k]) * (x[k] - reference[k]);
         return std::sqrt(3 * sum / static_cast<double>(x.size())) / static_cast<double>(4 * kMillimetre);
     };
-    const std::vector<double> manySteps = slump({16, 32, 200, 1, 1, 16, 80, 16, 0, 3, 2048, 0}, kSeconds);
+    const std::vector<double> manySteps = slump({16, 32, 200, 1, 1, 16, 80, 16, 0, 3, 2048, 0, 0}, kSeconds);
     double last = 1;
     for (const int steps : {1, 2, 4}) {
-        const double now = error(manySteps, {steps, 8, 100, 1, 1, steps, 80, 16, 0, 3, 2048, 0});
+        const double now = error(manySteps, {steps, 8, 100, 1, 1, steps, 80, 16, 0, 3, 2048, 0, 0});
         found.atMost(std::to_string(steps) + " sub-steps: off the reference, spacings", last, now);
         last = now;
     }
-    const std::vector<double> manyIterations = slump({1, 8, 200, 1, 1, 1, 80, 16, 0, 3, 2048, 0}, kSeconds);
+    const std::vector<double> manyIterations = slump({1, 8, 200, 1, 1, 1, 80, 16, 0, 3, 2048, 0, 0}, kSeconds);
     last = 1;
     for (const int iterations : {3, 6, 12, 24}) {
-        const double now = error(manyIterations, {1, 8, iterations, 1, 1, 1, 80, 16, 0, 3, 2048, 0});
+        const double now = error(manyIterations, {1, 8, iterations, 1, 1, 1, 80, 16, 0, 3, 2048, 0, 0});
         found.atMost(std::to_string(iterations) + " viscosity iterations: off very many, spacings", last, now);
         last = now;
     }
