@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "base/types.h"
+#include "surface/deposit_simd.h"
 #include "surface/field_simd.h"
 
 namespace thaw {
@@ -34,7 +35,8 @@ class SurfaceField {
 public:
     static constexpr int kSide = 8, kNodes = kSide * kSide * kSide;
     static constexpr float kIso = 0.5f;
-    static constexpr int kNear = 27; // a block and those around it; (dx, dy, dz) is nearAt(dx, dy, dz)
+    static constexpr int kAxisBits = 21; // a block is within +-2^20 of the origin
+    static constexpr int kNear = 27;     // a block and those around it; (dx, dy, dz) is nearAt(dx, dy, dz)
     static constexpr int nearAt(int dx, int dy, int dz) { return (dz + 1) * 9 + (dy + 1) * 3 + dx + 1; }
 
     struct Block {
@@ -44,6 +46,7 @@ public:
         int32_t around = 0;       // particles that may reach into it
         bool alive = false;       // else the slot is free
         bool changed = false;     // by the last update: its values, or the particles around
+        bool stirred = false;     // holds particles that are to be brought or taken away
     };
 
     // Share of smoothing for a vertex with this mean company: none for drops and threads, which would shrink (the idea
@@ -62,7 +65,10 @@ public:
     int slotCount() const { return int(blocks_.size()); }
     const Block& block(int slot) const { return blocks_[slot]; }
     const Array<int32_t>& order() const { return order_; } // slots of the blocks, by place
-    const float* values(int slot) const { return values_.data() + size_t(slot) * kNodes; }
+    float value(int slot, int node) const {
+        const size_t at = size_t(slot) * kNodes + size_t(node);
+        return float(base_[at] + lift_[at]) * kDepositUnit;
+    }
     // Bit x of byte 8 z + y: whether that node is inside.
     const uint8_t* inside(int slot) const { return inside_.data() + size_t(slot) * kSide * kSide; }
     // Fill at the particle before lifting, up to kFullCompany.
@@ -86,18 +92,21 @@ private:
     struct Row {
         float inverse;   // 1 / R^2
         float amplitude; // V W(0)
-        float lifted;    // a V W(0)
+        float excess;    // (a - 1) V W(0)
+        float lifted;    // of that, what the nodes have
         float company;
         int32_t home;      // slot of the block that its centre is in; -1: reaches farther than a block, is in no bin
         uint8_t bin;       // of that block
         uint8_t reach;     // bits x-, x+, y-, y+, z-, z+: sides of the block that it may reach over
         bool otherCompany; // than the last time
+        bool fresh;        // its nodes do not have it yet, or are to lose it
     };
 
     bool rebuild(const SurfaceInput& input);
     bool placeRows(const SurfaceInput& input, const int32_t* begin, const int32_t* end);
     int slotAt(int64_t x, int64_t y, int64_t z);
     size_t entryOf(uint64_t key) const;
+    void clearTable();
     void growTable(size_t size);
     void dropBlock(int slot);
     bool linkBlocks(const SurfaceInput& input);
@@ -109,9 +118,12 @@ private:
     bool isFullAround(int slot, int k) const;
     void countCompanyOfLarge(const SurfaceInput& input);
     void setCompany(Row& row, int sum, Vec3 at, const SurfaceInput& input);
-    void splat(int slot, const float* amplitudes, const Runs& runs, float* values) const;
-    void splatBlock(int slot);
-    void liftBlock(int slot);
+    void takeAway(int count, Tasks& tasks);
+    void bring(Tasks& tasks);
+    void liftRows(Tasks& tasks);
+    template <class F> void depositStirred(Array<int32_t>& sums, Tasks& tasks, F&& amplitudesOf);
+    void depositLarge(Array<int32_t>& sums, const float* amplitudes, Tasks& tasks);
+    void finishBlock(int slot);
 
     bool valid_ = false;
     double cell_ = 0;
@@ -133,15 +145,32 @@ private:
     size_t tableUsed_ = 0;
     bool setChanged_ = false;
     int lastSlot_ = -1;
-    Array<float> base_, values_; // before and after lifting
+    Array<int32_t> base_, lift_; // by slot and node, in kDepositUnit: fill before lifting, and what that adds
     Array<uint8_t> inside_;
+
+    struct Line {
+        int32_t begin, end; // of homes_: blocks in a row along x
+    };
+    Array<int32_t> homes_;
+    Array<Line> lines_;
+    Array<int32_t> tiles_; // by worker; zeros
+    Array<float> excessOfLarge_;
 
     // Rows by bin, and by row within a bin; large ones last.
     Array<int32_t> binStarts_;
     Array<uint32_t> sortedRows_;
     Array<float> sorted_; // the arrays of arrays_, one after the other
-    Array<float> excess_; // of lifted over amplitude
     FillArrays arrays_{};
 };
+
+// f(slot) for all blocks that are marked.
+template <class F> void SurfaceField::forChanged(Tasks& tasks, F&& f) {
+    changedSlots_.clear();
+    for (int32_t slot : order_)
+        if (blocks_[slot].changed) changedSlots_.push(slot);
+    tasks.forBlocks(int(changedSlots_.size()), 4, [&](int begin, int end, int, int) {
+        for (int k = begin; k < end; ++k) f(changedSlots_[k]);
+    });
+}
 
 } // namespace thaw

@@ -12,8 +12,6 @@ HWY_BEFORE_NAMESPACE();
 namespace thaw {
 namespace HWY_NAMESPACE {
 
-constexpr int kSide = 8;
-
 HWY_INLINE F32 outside(F32 v, float center, float half) {
     return hn::Max(hn::Sub(hn::Abs(hn::Sub(v, all(center))), all(half)), zero());
 }
@@ -75,63 +73,6 @@ void sumAroundLanes(const FillArrays& from, const int* begins, const int* ends, 
         }
 }
 
-// 1 - (l - at)^2 inverse for l = 0..7, and which are above zero.
-HWY_INLINE unsigned axis(float at, float inverse, float* out) {
-    alignas(32) static constexpr float kPlaces[kSide] = {0, 1, 2, 3, 4, 5, 6, 7};
-    unsigned above = 0;
-    for (int part = 0; part < kSide; part += kLanes) {
-        const F32 d = hn::Sub(hn::Load(kF32, kPlaces + part), all(at));
-        const F32 t = hn::NegMulAdd(hn::Mul(d, d), all(inverse), all(1));
-        hn::Store(t, kF32, out + part);
-        above |= bitsOf(hn::Gt(t, zero())) << part;
-    }
-    return above;
-}
-
-void splatRunsLanes(const FillArrays& from, const float* amplitudes, const int* begins, const int* ends, int runs,
-                    const FillBlock& block, float* values) {
-    const float cellSquared = static_cast<float>(1 / (block.perCell * block.perCell));
-    for (int run = 0; run < runs; ++run)
-        for (int k = begins[run]; k < ends[run]; ++k) {
-            if (amplitudes[k] == 0) continue;
-            const float x = static_cast<float>(static_cast<double>(from.x[k]) * block.perCell - block.first[0]),
-                        y = static_cast<float>(static_cast<double>(from.y[k]) * block.perCell - block.first[1]),
-                        z = static_cast<float>(static_cast<double>(from.z[k]) * block.perCell - block.first[2]);
-            const float inverse = from.inverse[k] * cellSquared;
-            alignas(32) float alongX[kSide], alongY[kSide], alongZ[kSide];
-            if (axis(x, inverse, alongX) == 0) continue;
-            // The whole box and not what the ball has of it: loops of different lengths cost more, a branch each that
-            // is not foreseen.
-            const unsigned ys = axis(y, inverse, alongY), zs = axis(z, inverse, alongZ);
-            if (ys == 0 || zs == 0) continue;
-            const int yBegin = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(ys)),
-                      yEnd = 32 - static_cast<int>(hwy::Num0BitsAboveMS1Bit_Nonzero32(ys)),
-                      zBegin = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(zs)),
-                      zEnd = 32 - static_cast<int>(hwy::Num0BitsAboveMS1Bit_Nonzero32(zs));
-            const F32 amplitude = all(amplitudes[k]);
-            for (int part = 0; part < kSide; part += kLanes) {
-                const F32 xs = hn::Sub(hn::Load(kF32, alongX + part), all(2)); // each of the three is 1 - something
-                for (int nz = zBegin; nz < zEnd; ++nz) {
-                    const F32 xz = hn::Add(xs, all(alongZ[nz]));
-                    float* row = values + nz * kSide * kSide + part;
-                    for (int ny = yBegin; ny < yEnd; ++ny) {
-                        const F32 w = kernel(hn::Add(xz, all(alongY[ny])), amplitude);
-                        store(hn::Add(load(row + ny * kSide), w), row + ny * kSide);
-                    }
-                }
-            }
-        }
-}
-
-void markInsideLanes(const float* values, float iso, uint8_t* bits) {
-    for (int row = 0; row < kSide * kSide; ++row) {
-        unsigned b = 0;
-        for (int part = 0; part < kSide; part += kLanes)
-            b |= bitsOf(hn::Ge(load(values + row * kSide + part), all(iso))) << part;
-        bits[row] = static_cast<uint8_t>(b);
-    }
-}
-
 int copyNearLanes(const FillArrays& from, const uint32_t* fromRows, const int* begins, const int* ends, int runs,
                   const FillBox& box, float sharper, float* to, int stride, uint32_t* rows) {
     int count = 0;
@@ -174,8 +115,6 @@ namespace thaw {
 HWY_EXPORT(sumAroundLanes);
 HWY_EXPORT(copyNearLanes);
 HWY_EXPORT(weighLanes);
-HWY_EXPORT(splatRunsLanes);
-HWY_EXPORT(markInsideLanes);
 
 void sumAround(const FillArrays& from, const int* begins, const int* ends, int runs, const FillBox& box,
                const int* which, int count, int* sums) {
@@ -189,15 +128,6 @@ int copyNear(const FillArrays& from, const uint32_t* fromRows, const int* begins
 
 int weigh(const float* near, int stride, int count, float x, float y, float z, float* weights, uint32_t* which) {
     return HWY_DYNAMIC_DISPATCH(weighLanes)(near, stride, count, x, y, z, weights, which);
-}
-
-void splatRuns(const FillArrays& from, const float* amplitudes, const int* begins, const int* ends, int runs,
-               const FillBlock& block, float* values) {
-    HWY_DYNAMIC_DISPATCH(splatRunsLanes)(from, amplitudes, begins, ends, runs, block, values);
-}
-
-void markInside(const float* values, float iso, uint8_t* bits) {
-    HWY_DYNAMIC_DISPATCH(markInsideLanes)(values, iso, bits);
 }
 
 } // namespace thaw

@@ -31,16 +31,4 @@ int copyNear(const FillArrays& from, const uint32_t* fromRows, const int* begins
 // returns how many. Reads up to seven more.
 int weigh(const float* near, int stride, int count, float x, float y, float z, float* weights, uint32_t* which);
 
-// Where a block of 8^3 nodes is, and how wide its cells are.
-struct FillBlock {
-    double first[3], perCell; // of the first node, in cells; 1 / m
-};
-
-// Adds amplitude (1 - r^2 inverse)^3 at the nodes of the block, one particle after the other, by these amplitudes.
-void splatRuns(const FillArrays& from, const float* amplitudes, const int* begins, const int* ends, int runs,
-               const FillBlock& block, float* values);
-
-// Bit x of byte 8 z + y: whether that node's value is iso or more.
-void markInside(const float* values, float iso, uint8_t* bits);
-
 } // namespace thaw

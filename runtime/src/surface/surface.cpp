@@ -223,9 +223,9 @@ void Surface::emitVertex(int slot, int x, int y, int z, int axis, const OriginFi
     int next[3] = {x, y, z};
     ++next[axis];
     const int other = upper(block, (next[0] == kSide) | (next[1] == kSide) << 1 | (next[2] == kSide) << 2);
-    const float fill = field_.values(slot)[nodeAt(x, y, z)];
+    const float fill = field_.value(slot, nodeAt(x, y, z));
     const float nextFill =
-        other < 0 ? 0 : field_.values(other)[nodeAt(next[0] % kSide, next[1] % kSide, next[2] % kSide)];
+        other < 0 ? 0 : field_.value(other, nodeAt(next[0] % kSide, next[1] % kSide, next[2] % kSide));
     // Clear of the nodes, so that no triangle is without area.
     const float t = std::clamp((SurfaceField::kIso - fill) / (nextFill - fill), 0.02f, 0.98f);
     double at[3] = {double(block.x) * kSide + x, double(block.y) * kSide + y, double(block.z) * kSide + z};
