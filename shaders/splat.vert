@@ -5,7 +5,7 @@
 // CAMERA_PASS, KEY_PASS, FLAME_PASS.
 
 layout(location = 0) in vec4 aCenter; // x y z; half axis along the surface, m
-layout(location = 1) in vec4 aAxis;   // out of the surface, unit; the half axis along it over the other
+layout(location = 1) in vec4 aAxis;   // out of the surface, unit; the half axis along it, m
 layout(location = 2) in vec3 aState;  // temperature, liquid fraction, material
 
 uniform vec4 uMaterialColor[MAX_MATERIALS]; // w: translucency
@@ -24,7 +24,7 @@ out vec3 vPoint;       // in the world
 void main() {
     vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1);
     vCenter = vec4(aCenter.xyz, aCenter.w * uSplatSize);
-    vAxis = aAxis;
+    vAxis = vec4(aAxis.xyz, aAxis.w / aCenter.w);
     int material = clamp(int(aState.z + 0.5), 0, MAX_MATERIALS - 1);
     vAlbedo = uMaterialColor[material];
     float t = (aState.x - uTemperatureRange.x) / max(uTemperatureRange.y - uTemperatureRange.x, 1e-6);

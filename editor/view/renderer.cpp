@@ -430,6 +430,9 @@ static bool checkScene(const Scene& scene, const View& view, std::string& error)
     for (const Region& r : scene.regions)
         if (!r.mesh || r.mesh->normals.size() != r.mesh->positions.size()) return refuse("a region has no mesh");
     if (scene.splats && !(scene.splatSpacing > 0)) return refuse("splatSpacing must be above 0");
+    if (scene.splats && scene.splats->count > 0 &&
+        (scene.splatShapes.count != scene.splats->count || !scene.splatShapes.centers || !scene.splatShapes.axes))
+        return refuse("splats lack shapes");
     for (const thawParticleView* particles : {scene.particles, scene.splats}) {
         if (!particles) continue;
         const thawParticleView& p = *particles;

@@ -104,9 +104,10 @@ struct Scene {
     std::vector<MaterialLook> materials; // by index of surface.materials; empty: wax
     std::vector<MeshInstance> meshes;
     std::vector<Glow> glows; // the first 8 give light, the first 4 of them cast shadows
-    /// The melt from its particles, in screen space, in place of surface when not null: positions, normals,
-    /// temperatures, liquidFractions, materials and levels are read, during the call only.
+    /// The melt from its particles, in screen space, in place of surface when not null: temperatures, liquidFractions
+    /// and materials are read, of positions the spheres of influence, during the call only; splatShapes goes with it.
     const thawParticleView* splats = nullptr;
+    thawSplatView splatShapes{};                 // as many
     float splatSpacing = 0.002f;                 // m, of those at level 0; > 0
     const thawParticleView* particles = nullptr; // drawn as balls when not null
     ParticleColor particleColor = ParticleColor::temperature;

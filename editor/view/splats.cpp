@@ -51,27 +51,23 @@ void Splats::upload(const Scene& scene) {
     if (empty()) return;
     const thawParticleView& p = *scene.splats;
     spacing_ = scene.splatSpacing;
-    makeSplatShapes(p, spacing_, shapes_);
-    centerData_.clear(), axisData_.clear(), stateData_.clear();
+    stateData_.clear();
     for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
-        const SplatShape& shape = shapes_[i];
-        const Vec3 x = shape.center, n = shape.axis;
-        centerData_.insert(centerData_.end(), {x.x, x.y, x.z, shape.along});
-        axisData_.insert(axisData_.end(), {n.x, n.y, n.z, shape.out / shape.along});
+        const float* x = scene.splatShapes.centers + 4 * i;
         stateData_.insert(stateData_.end(),
                           {p.temperatures ? p.temperatures[i] : 0, p.liquidFractions ? p.liquidFractions[i] : 0,
                            p.materials ? static_cast<float>(p.materials[i]) : 0});
-        bounds_.add(x);
+        bounds_.add(Vec3{x[0], x[1], x[2]});
     }
     glBindVertexArray(array_.get());
-    const auto stream = [](GLuint index, GlBuffer& buffer, const std::vector<float>& data, GLint components) {
-        view::upload(buffer, GL_ARRAY_BUFFER, data.data(), data.size() * 4, GL_STREAM_DRAW);
+    const auto stream = [&](GLuint index, GlBuffer& buffer, const float* data, GLint components) {
+        view::upload(buffer, GL_ARRAY_BUFFER, data, static_cast<size_t>(count_ * components) * 4, GL_STREAM_DRAW);
         attribute(index, components, GL_FLOAT);
         glVertexAttribDivisor(index, 1);
     };
-    stream(0, centers_, centerData_, 4);
-    stream(1, axes_, axisData_, 4);
-    stream(2, states_, stateData_, 3);
+    stream(0, centers_, scene.splatShapes.centers, 4);
+    stream(1, axes_, scene.splatShapes.axes, 4);
+    stream(2, states_, stateData_.data(), 3);
     glBindVertexArray(0);
 }
 

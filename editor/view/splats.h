@@ -5,7 +5,6 @@
 
 #include "view/passes.h"
 #include "view/renderer.h"
-#include "view/splat_shapes.h"
 
 #include <array>
 #include <vector>
@@ -52,8 +51,7 @@ private:
     float spacing_ = 0;
     std::array<int, 4> scissor_{}; // x y width height
     Bounds bounds_;
-    std::vector<SplatShape> shapes_;
-    std::vector<float> centerData_, axisData_, stateData_;
+    std::vector<float> stateData_;
 };
 
 } // namespace thaw::view

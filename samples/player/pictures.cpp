@@ -216,6 +216,8 @@ view::Image Pictures::draw(thawWorld* world, PictureView mode) {
     if (mode == PictureView::splats) {
         thawWorld_GetParticles(world, &melt);
         s.scene.splats = &melt;
+        if (thawWorld_GetSplats(world, &s.scene.splatShapes) != thawResult_ok)
+            throw RunError(std::string("no splats: ") + thawWorld_GetLastError(world));
     }
     if (isOfParticles(mode)) {
         s.scene.surface = {};

@@ -6,6 +6,7 @@
 // THAW_UPDATE_GOLDEN=1 writes them and that name anew.
 
 #include "pictures.h"
+#include "splat_shapes.h"
 #include "view_fixture.h"
 
 #include <cstdlib>
@@ -104,19 +105,21 @@ TEST_CASE_FIXTURE(GoldenFixture, "golden pictures: particles") {
 
 TEST_CASE_FIXTURE(GoldenFixture, "golden pictures: splats") {
     view::Scene scene = candle.scene();
-    scene.splats = &particleView, scene.splatSpacing = SyntheticParticles::kSpacing;
+    const ShapesOf shapes(particleView, SyntheticParticles::kSpacing);
+    scene.splats = &particleView, scene.splatShapes = shapes.view(), scene.splatSpacing = SyntheticParticles::kSpacing;
     check("splats", scene, goldenView());
     check("splats_temperature", scene, goldenView(view::ViewMode::temperature));
 }
 
 TEST_CASE_FIXTURE(GoldenFixture, "golden pictures: control") {
     view::Scene scene = candle.scene();
-    const Vec3 points[] = {{0, 0.1f, 0.01f}, {0.01f, 0.08f, 0.025f}, {-0.01f, 0.04f, 0.025f}, {0.01f, 0.005f, 0.03f}};
+    const view::Vec3 points[] = {
+        {0, 0.1f, 0.01f}, {0.01f, 0.08f, 0.025f}, {-0.01f, 0.04f, 0.025f}, {0.01f, 0.005f, 0.03f}};
     thawPathDef path;
     thawInitPathDef(&path);
     path.points = points, path.pointCount = 4, path.radius = 0.006f;
     scene.regions = view::pathRegions(path);
-    std::vector<Vec3> contour;
+    std::vector<view::Vec3> contour;
     for (int i = 0; i < 40; ++i) {
         const float a = 6.2831853f * float(i) / 40, r = 0.034f + 0.006f * std::sin(5 * a);
         contour.push_back({r * std::cos(a), 0.001f, r * std::sin(a)});

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "pictures.h"
+#include "splat_shapes.h"
 #include "view/color_map.h"
-#include "view/splat_shapes.h"
 #include "view_fixture.h"
 
 #include <algorithm>
@@ -24,22 +24,23 @@ struct Melt {
     std::vector<float> positions, normals, temperatures, liquids;
     std::vector<uint8_t> materials;
 
-    void add(Vec3 p, Vec3 n, float kelvin = 300, float liquid = 0, uint8_t material = 0) {
+    void add(view::Vec3 p, view::Vec3 n, float kelvin = 300, float liquid = 0, uint8_t material = 0) {
         positions.insert(positions.end(), {p.x, p.y, p.z, 0.5f * kSpacing});
         normals.insert(normals.end(), {n.x, n.y, n.z, length(n) > 0 ? kSpacing * kSpacing : 0});
         temperatures.push_back(kelvin), liquids.push_back(liquid), materials.push_back(material);
     }
     // A ball on a lattice; what is on the right is hot, liquid and of the second material.
-    void addBall(Vec3 center, float radius) {
+    void addBall(view::Vec3 center, float radius) {
         const int n = int(radius / kSpacing) + 1;
         for (int k = -n; k <= n; ++k)
             for (int j = -n; j <= n; ++j)
                 for (int i = -n; i <= n; ++i) {
-                    const Vec3 d = Vec3{float(i), float(j), float(k)} * kSpacing;
+                    const view::Vec3 d = view::Vec3{float(i), float(j), float(k)} * kSpacing;
                     const float r = length(d);
                     if (r > radius) continue;
                     const bool surface = r > radius - kSpacing, right = d.x > 0;
-                    add(center + d, surface ? d * (1 / r) : Vec3{0, 0, 0}, right ? 340 : 300, right ? 1 : 0, right);
+                    add(center + d, surface ? d * (1 / r) : view::Vec3{0, 0, 0}, right ? 340 : 300, right ? 1 : 0,
+                        right);
                 }
     }
     thawParticleView view() const {
@@ -55,7 +56,7 @@ view::Scene ballScene() {
     view::Scene scene;
     scene.materials = {{{0.8f, 0.8f, 0.8f}, 0.0f, 0.6f}, {{0.7f, 0.1f, 0.1f}, 0.0f, 0.6f}};
     scene.splatSpacing = kSpacing;
-    scene.stage.add(Vec3{-0.05f, 0, -0.05f}), scene.stage.add(Vec3{0.05f, 0.08f, 0.05f});
+    scene.stage.add(view::Vec3{-0.05f, 0, -0.05f}), scene.stage.add(view::Vec3{0.05f, 0.08f, 0.05f});
     return scene;
 }
 view::View ballView() {
@@ -71,49 +72,13 @@ const view::TriangleMesh& sphere() {
 }
 } // namespace
 
-TEST_CASE("beads of a plane become flat, a drop stays where it is and round") {
-    Melt melt;
-    for (int j = 0; j < 12; ++j)
-        for (int i = 0; i < 12; ++i)
-            melt.add(Vec3{float(i), ((i * 7 + j * 5) % 3 - 1) * 0.2f, float(j)} * kSpacing, {0, 1, 0});
-    melt.add({0.3f, 0.2f, 0.1f}, {1, 0, 0}); // by itself
-    std::vector<SplatShape> shapes;
-    makeSplatShapes(melt.view(), kSpacing, shapes);
-    REQUIRE(shapes.size() == 145);
-    float before = 0, after = 0;
-    for (int j = 2; j < 10; ++j)
-        for (int i = 2; i < 10; ++i) {
-            const size_t row = size_t(j * 12 + i);
-            before = std::fmax(before, std::fabs(melt.positions[row * 4 + 1]));
-            after = std::fmax(after, std::fabs(shapes[row].center.y));
-            CHECK(shapes[row].axis.y > 0.999f);
-            CHECK(shapes[row].out < 0.6f * shapes[row].along);
-            // Flat, half a spacing is outside of it.
-            CHECK(std::fabs(shapes[row].out - 0.5f * kSpacing) < 0.05f * kSpacing);
-        }
-    CHECK(after < 0.35f * before);
-    CHECK(length(shapes.back().center - Vec3{0.3f, 0.2f, 0.1f}) < 1e-6f);
-    CHECK(shapes.back().out == shapes.back().along);
-}
-
-TEST_CASE("a sheet of two layers keeps its thickness") {
-    Melt melt;
-    for (int layer = 0; layer < 2; ++layer)
-        for (int j = 0; j < 10; ++j)
-            for (int i = 0; i < 10; ++i)
-                melt.add(Vec3{float(i), float(layer), float(j)} * kSpacing, {0, layer ? 1.0f : -1.0f, 0});
-    std::vector<SplatShape> shapes;
-    makeSplatShapes(melt.view(), kSpacing, shapes);
-    for (size_t row = 0; row < 100; ++row)
-        CHECK(std::fabs(shapes[row + 100].center.y - shapes[row].center.y - kSpacing) < 0.02f * kSpacing);
-}
-
 TEST_CASE_FIXTURE(ViewFixture, "a ball of particles in screen space looks like a ball") {
     Melt melt;
     melt.addBall({0, 0.03f, 0}, kRadius);
     const thawParticleView particles = melt.view();
     view::Scene scene = ballScene(), mesh = ballScene();
-    scene.splats = &particles;
+    const ShapesOf particlesShapes(particles, kSpacing);
+    scene.splats = &particles, scene.splatShapes = particlesShapes.view();
     view::MeshInstance ball;
     ball.mesh = std::make_shared<view::TriangleMesh>(sphere());
     ball.position = {0, 0.03f, 0}, ball.color = scene.materials[0].color, ball.roughness = 0.6f;
@@ -158,7 +123,8 @@ TEST_CASE_FIXTURE(ViewFixture, "splats carry material, temperature and liquid fr
     melt.addBall({0, 0.03f, 0}, kRadius);
     const thawParticleView particles = melt.view();
     view::Scene scene = ballScene();
-    scene.splats = &particles;
+    const ShapesOf particlesShapes(particles, kSpacing);
+    scene.splats = &particles, scene.splatShapes = particlesShapes.view();
     view::View v = ballView();
     const auto sides = [&](view::ViewMode mode) {
         v.mode = mode;
@@ -184,7 +150,8 @@ TEST_CASE_FIXTURE(ViewFixture, "splats carry material, temperature and liquid fr
     Melt far;
     far.add({0, -1, 0}, {0, 1, 0});
     const thawParticleView hidden = far.view();
-    both.splats = &hidden;
+    const ShapesOf hiddenShapes(hidden, kSpacing);
+    both.splats = &hidden, both.splatShapes = hiddenShapes.view();
     CHECK(meanOf(draw(both, smallView()), 0.47, 0.6, 0.53, 0.7).luminance() <
           0.7 * meanOf(draw(candle.scene(), smallView()), 0.47, 0.6, 0.53, 0.7).luminance());
     both.splatSpacing = 0;
@@ -201,7 +168,8 @@ TEST_CASE_FIXTURE(ViewFixture, "what is before something else in screen space ke
     std::fill(melt.liquids.begin(), melt.liquids.end(), 0.0f);
     const thawParticleView particles = melt.view();
     view::Scene scene = ballScene();
-    scene.splats = &particles;
+    const ShapesOf particlesShapes(particles, kSpacing);
+    scene.splats = &particles, scene.splatShapes = particlesShapes.view();
     const Image image = draw(scene, ballView());
     // From red to grey within three pixels, at the radius of the small ball.
     const double pixels = 2.5 * kSpacing / (2 * 0.25 * std::tan(0.2)) * image.height;
@@ -218,7 +186,8 @@ TEST_CASE_FIXTURE(ViewFixture, "a single drop on a wall stays in front of it") {
     melt.add({0, 0.03f, 0.5f * kSpacing}, {0, 0, 1}, 300, 0, 1);
     const thawParticleView particles = melt.view();
     view::Scene scene = ballScene();
-    scene.splats = &particles;
+    const ShapesOf particlesShapes(particles, kSpacing);
+    scene.splats = &particles, scene.splatShapes = particlesShapes.view();
     view::MeshInstance wall;
     wall.mesh = std::make_shared<view::TriangleMesh>(view::makeBox({0.04f, 0.03f, 0.01f}));
     wall.position = {0, 0.03f, -0.01f}, wall.color = {0.5f, 0.5f, 0.5f};

@@ -681,6 +681,18 @@ THAW_API void thawWorld_GetParticles(const thawWorld* world, thawParticleView* o
  * nothing that a step depends on. The array belongs to the world, until the next call of this or a step. */
 THAW_API thawResult thawWorld_GetFeatureSizes(thawWorld* world, const float** out);
 
+/* Particles as ellipsoids of revolution, for hosts that draw splats or a surface in screen space: balls inside and where
+ * one is alone, flat where there is a surface, and there moved along it so that beads at outlines go (after Yu & Turk
+ * 2013). In the order of thawParticleView. */
+typedef struct thawSplatView {
+    int32_t count;
+    const float* centers; /* x y z a: m; a is the half axis along the surface */
+    const float* axes;    /* x y z b: unit, out of the surface; b is the half axis along it, m */
+} thawSplatView;
+/* 0.6 us a particle of the surface. Changes nothing that a step depends on. The arrays belong to the world, until the
+ * next call of this. */
+THAW_API thawResult thawWorld_GetSplats(thawWorld* world, thawSplatView* out);
+
 /* A piece of solid that nothing anchors: cut loose by melting, or a body that stands free. It falls, lands, is pushed
  * and floats as one rigid body until it melts. */
 typedef struct thawPieceState {

@@ -942,6 +942,14 @@ thawResult thawWorld_GetFeatureSizes(thawWorld* world, const float** out) {
     });
 }
 
+thawResult thawWorld_GetSplats(thawWorld* world, thawSplatView* out) {
+    if (out) *out = {};
+    return guarded(world, [&](World& w, Check& c) {
+        if (!out) c.fail(thawResult_invalidArgument, "out: is NULL");
+        if (c.ok()) *out = w.splats();
+    });
+}
+
 void thawInitSurfaceDef(thawSurfaceDef* def) {
     if (!def) return;
     *def = thawSurfaceDef{};

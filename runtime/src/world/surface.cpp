@@ -79,6 +79,12 @@ void World::finishSurface(thawSurfaceView& out) {
     show(mesh, startedLevel_, out);
 }
 
+thawSplatView World::splats() {
+    splats_.make({particles.count, particles.position.data(), particles.normal.data()}, tasks);
+    if (particles.count == 0) return {};
+    return {particles.count, &splats_.centers[0].x, &splats_.axes[0].x};
+}
+
 int World::chooseSurfaceLevel(SurfaceLevel& learnt, SurfaceLevel& units, const thawBudget& b) const {
     if (b.mode == thawBudget_work) return b.work.surfaceLevel;
     SurfaceLevel& level = b.mode == thawBudget_milliseconds ? learnt : units;

@@ -18,6 +18,7 @@
 #include "neighbors/neighbors.h"
 #include "particles/material.h"
 #include "particles/particles.h"
+#include "particles/splats.h"
 #include "surface/maker.h"
 #include "world/governor.h"
 #include "world/plan.h"
@@ -79,6 +80,7 @@ public:
     bool surfaceUnderWay() const { return surface_.busy(); }
     void startSurface(const thawSurfaceDef& def);
     void finishSurface(thawSurfaceView& out);
+    thawSplatView splats();
     uint64_t stateHash() const;
     thawLedger ledger() const;
     thawCounters counters() const;
@@ -161,6 +163,7 @@ private:
     Anchors anchors_;
     Bonds bonds_;
     SurfaceMaker surface_;
+    SplatShapes splats_;
     SurfaceLevel surfaceLevel_{SurfaceLevel::Prices::learnt}, surfaceUnits_{SurfaceLevel::Prices::fixed};
     int64_t meshedBlocks_ = 0; // when it was last looked at
     int startedLevel_ = 0;     // of the mesh under way
