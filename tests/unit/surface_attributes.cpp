@@ -4,6 +4,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
 using namespace thaw;
 
 TEST_CASE("surface: temperature, liquid fraction and material follow the particles") {
@@ -109,4 +113,32 @@ TEST_CASE("surface: materials mix where they meet, and add up") {
         }
     }
     CHECK(mixed > 20);
+}
+
+TEST_CASE("surface: one particle of another material has no edge") {
+    Wax wax;
+    for (int x = -8; x <= 8; ++x)
+        for (int y = -3; y <= 0; ++y)
+            for (int z = -8; z <= 8; ++z)
+                wax.add(wax.spacing * Vec3{float(x), float(y), float(z)}, wax.spacing, 300, 0,
+                        x == 0 && y == 0 && z == 0 ? 9 : 2);
+    Mesher mesher;
+    Surface& s = mesher(wax);
+    const auto share = [&](uint32_t v) {
+        for (int k = 0; k < 4; ++k)
+            if (s.mixtures[v].share[k] && s.mixtures[v].material[k] == 9) return int(s.mixtures[v].share[k]);
+        return 0;
+    };
+    int most = 0, step = 0, touched = 0;
+    for (size_t t = 0; t < s.indices.size(); ++t)
+        step = std::max(step, std::abs(share(s.indices[t]) - share(s.indices[t % 3 == 2 ? t - 2 : t + 1])));
+    for (uint32_t v = 0; v < s.positions.size(); ++v) {
+        const Vec3 p = s.positions[v];
+        most = std::max(most, share(v));
+        touched += share(v) > 0;
+        if (std::hypot(p.x, p.z) > 5 * wax.spacing) CHECK(share(v) == 0);
+    }
+    CHECK(most > 35); // it is seen
+    CHECK(step < 50); // and fades
+    CHECK(touched > 12);
 }

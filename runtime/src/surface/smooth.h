@@ -22,9 +22,10 @@ public:
     // Unit, outward; averaged with their neighbours' passes times.
     void normals(const Array<Vec4>& positions, Array<Vec4>& out, int passes, Tasks& tasks);
 
-private:
+    // Of the mesh that was connected.
     MeshCorners corners() const { return {begins_.data(), next_.data(), triangle_.data()}; }
 
+private:
     Array<uint32_t> begins_, next_, triangle_;
     const uint32_t* indices_ = nullptr;
     Array<Vec4> other_, triangleNormals_;

@@ -3,6 +3,7 @@
 #include "surface/surface.h"
 
 #include "surface/cubes.h"
+#include "surface/mixtures.h"
 
 #include <algorithm>
 #include <cstring>
@@ -16,6 +17,7 @@ constexpr int kPart = kSide / 2; // vertices of a part of a block look for their
 
 // Shading shows bumps that the outline does not: two passes hide them on disordered particles, three flatten drips.
 constexpr int kNormalPasses = 2;
+constexpr int kMixturePasses = 2; // a particle of another material is as wide as two cells
 
 // Not __builtin_popcount, which is a call on the baseline.
 int countBits(unsigned eight) {
@@ -65,42 +67,13 @@ struct Inside {
     }
 };
 
-// Shares of the materials of a vertex's particles: the four with the largest sums, of equals the one with the lower
-// index.
-void mix(const Origins& origins, const uint8_t* materials, SurfaceMesh::Mixture& out) {
-    uint8_t seen[Origins::kMost];
-    float sums[Origins::kMost];
-    int kinds = 0;
-    for (int k = 0; k < Origins::kMost; ++k) {
-        const uint8_t material = materials[origins.row[k]];
-        int n = 0;
-        while (n < kinds && seen[n] != material) ++n;
-        if (n == kinds) seen[kinds] = material, sums[kinds++] = 0;
-        sums[n] += origins.share[k];
-    }
-    out = {};
-    const int used = std::min(kinds, 4);
-    float all = 0;
-    for (int k = 0; k < used; ++k) {
-        for (int n = k + 1; n < kinds; ++n)
-            if (sums[n] > sums[k] || (sums[n] == sums[k] && seen[n] < seen[k]))
-                std::swap(sums[n], sums[k]), std::swap(seen[n], seen[k]);
-        all += sums[k];
-    }
-    int left = 255;
-    for (int k = used - 1; k >= 0; --k) {
-        const int share = k == 0 ? left : std::min(left, int(255 * sums[k] / all + 0.5f));
-        if (share > 0) out.material[k] = seen[k], out.share[k] = uint8_t(share), left -= share;
-    }
-}
-
 } // namespace
 
 Surface::Surface(Allocator& allocator)
     : SurfaceMesh(allocator), field_(allocator), smoother_(allocator), meshes_(allocator), changed_(allocator),
       vertexPool_(allocator), codePool_(allocator), raw_(allocator), origins_(allocator), rawMixtures_(allocator),
       rawMaterials_(allocator), rawBodies_(allocator), codes_(allocator), edgeVertices_(allocator), floats_(allocator),
-      ints_(allocator), smoothed_(allocator), unitNormals_(allocator), warmth_(allocator) {}
+      ints_(allocator), smoothed_(allocator), unitNormals_(allocator), blended_(allocator), warmth_(allocator) {}
 
 void Surface::drop() {
     clear();
@@ -119,6 +92,7 @@ void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, 
                 meshBlocks(input, change == SurfaceField::Change::everything, tasks);
             assemble(tasks);
             smoother_.connect(smoothed_.size(), indices);
+            blendMixtures(smoother_.corners(), mixtures, blended_, kMixturePasses, tasks);
             smoother_.smooth(smoothed_, smoothing, tasks);
             smoother_.normals(smoothed_, unitNormals_, kNormalPasses, tasks);
             for (size_t v = 0; v < smoothed_.size(); ++v)
@@ -249,7 +223,7 @@ void Surface::emitVertex(int slot, int x, int y, int z, int axis, const OriginFi
     if (oneMaterial)
         rawMixtures_[to] = {{input.materials[origins.row[0]]}, {255}};
     else
-        mix(origins, input.materials, rawMixtures_[to]);
+        mixOf(origins, input.materials, rawMixtures_[to]);
 }
 
 // Puts what the blocks have side by side.

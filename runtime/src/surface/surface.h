@@ -69,6 +69,7 @@ private:
     Array<uint32_t> ints_;
     int stride_ = 0;
     Array<Vec4> smoothed_, unitNormals_;
+    Array<Mixture> blended_;
     Array<Warmth> warmth_; // of the particles
     int smoothing_ = -1;   // of the mesh that is there
     int made_ = 0;
