@@ -146,8 +146,8 @@ void markInsideLanes(const int32_t* base, const int32_t* lift, int32_t iso, uint
     for (int row = 0; row < kSide * kSide; ++row) {
         unsigned b = 0;
         for (int part = 0; part < kSide; part += kLanes) {
-            const I32 sum =
-                hn::Add(hn::LoadU(kI32, base + row * kSide + part), hn::LoadU(kI32, lift + row * kSide + part));
+            I32 sum = hn::LoadU(kI32, base + row * kSide + part);
+            if (lift != nullptr) sum = hn::Add(sum, hn::LoadU(kI32, lift + row * kSide + part));
             b |= bitsOf(hn::RebindMask(kF32, hn::Gt(sum, least))) << part;
         }
         bits[row] = static_cast<uint8_t>(b);

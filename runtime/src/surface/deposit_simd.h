@@ -40,7 +40,7 @@ void addTile(DepositTile& tile, int32_t* const around[27]);
 void depositAcross(const FillArrays& from, int first, const float* amplitudes, int count, const FillBlock& block,
                    int32_t* nodes);
 
-// Bit x of byte 8 z + y: whether the sum of both at that node is iso or more.
+// Bit x of byte 8 z + y: whether the sum of both at that node is iso or more; lift may be null.
 void markInside(const int32_t* base, const int32_t* lift, int32_t iso, uint8_t* bits);
 
 } // namespace thaw

@@ -27,8 +27,8 @@ SurfaceField::SurfaceField(Allocator& allocator)
     : positions_(allocator), materials_(allocator), bodies_(allocator), rows_(allocator), freshRows_(allocator),
       large_(allocator), blocks_(allocator), freeSlots_(allocator), order_(allocator), changedSlots_(allocator),
       needed_(allocator), tableKeys_(allocator), tableSlots_(allocator), base_(allocator), lift_(allocator),
-      inside_(allocator), homes_(allocator), lines_(allocator), tiles_(allocator), excessOfLarge_(allocator),
-      binStarts_(allocator), sortedRows_(allocator), sorted_(allocator) {}
+      full_(allocator), inside_(allocator), homes_(allocator), lines_(allocator), tiles_(allocator),
+      excessOfLarge_(allocator), binStarts_(allocator), sortedRows_(allocator), sorted_(allocator) {}
 
 void SurfaceField::clear() {
     valid_ = false;
@@ -78,6 +78,7 @@ SurfaceField::Change SurfaceField::update(const SurfaceInput& input, float wante
     asked_ = wantedCell, spacing_ = input.spacing;
     sortRows(input);
     bring(tasks);
+    forChanged(tasks, [&](int slot) { markFull(slot); });
     forChanged(tasks, [&](int slot) { countCompany(slot, input); });
     countCompanyOfLarge(input);
     // Whose company has changed counts for another amount in all blocks that it reaches.
@@ -112,30 +113,36 @@ bool SurfaceField::rebuild(const SurfaceInput& input) {
 bool SurfaceField::placeRows(const SurfaceInput& input, const int32_t* begin, const int32_t* end) {
     const double perBlock = 1 / (cell_ * kSide);
     const bool foreseen = order_.empty();
+    // Of particles one after the other most are of one size, and in one block or next door.
+    float support = -1, inverse = 0, amplitude = 0, reach = 0;
     for (const int32_t* i = begin; i != end; ++i) {
         const Vec4& p = input.positions[*i];
+        if (p.w != support) {
+            support = p.w;
+            const float spacing = p.w / kSupport, radius = std::max(kReach * spacing, kReachCells * float(cell_));
+            const float ratio = spacing / radius;
+            inverse = 1 / (radius * radius), amplitude = 315 / (64 * kPi) * ratio * ratio * ratio;
+            reach = float(double(radius) / cell_ * 1.0001); // the margin covers rounding
+            if (reach <= kSide) reach_ = std::max(reach_, reach);
+        }
         Row& row = rows_[*i];
-        const float spacing = p.w / kSupport, radius = std::max(kReach * spacing, kReachCells * float(cell_));
-        const float ratio = spacing / radius;
         row = {};
-        row.inverse = 1 / (radius * radius);
-        row.amplitude = 315 / (64 * kPi) * ratio * ratio * ratio;
+        row.inverse = inverse, row.amplitude = amplitude;
         row.company = -1, row.fresh = true;
-        const double reach = double(radius) / cell_ * 1.0001; // the margin covers rounding
         if (reach > kSide) {
             if (!foreseen) return false;
             row.home = -1;
             large_.push(*i);
             continue;
         }
-        reach_ = std::max(reach_, float(reach));
         const double at[3] = {p.x * perBlock, p.y * perBlock, p.z * perBlock};
         int64_t block[3];
         int bin[3];
         for (int a = 0; a < 3; ++a) {
-            const double first = std::floor(at[a]), local = (at[a] - first) * kSide;
-            block[a] = int64_t(first);
-            bin[a] = std::min(int(local * (double(kBins) / kSide)), kBins - 1);
+            block[a] = int64_t(at[a]);
+            block[a] -= double(block[a]) > at[a];
+            const float local = float((at[a] - double(block[a])) * kSide);
+            bin[a] = std::min(int(local * (float(kBins) / kSide)), kBins - 1);
             row.reach |= uint8_t((local - reach <= 0) << 2 * a | (local + reach >= kSide) << (2 * a + 1));
         }
         row.bin = uint8_t((bin[2] * kBins + bin[1]) * kBins + bin[0]);

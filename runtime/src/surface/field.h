@@ -8,6 +8,8 @@
 #include "surface/deposit_simd.h"
 #include "surface/field_simd.h"
 
+#include <algorithm>
+
 namespace thaw {
 
 // What the mesher reads. Several spacings may stand side by side.
@@ -51,7 +53,10 @@ public:
 
     // Share of smoothing for a vertex with this mean company: none for drops and threads, which would shrink (the idea
     // of Loeschner et al. 2023).
-    static float mobility(float company);
+    static float mobility(float company) {
+        constexpr float kNone = 0.45f, kAll = 0.65f;
+        return std::clamp((company - kNone) / (kAll - kNone), 0.0f, 1.0f);
+    }
 
     explicit SurfaceField(Allocator& allocator);
 
@@ -69,8 +74,12 @@ public:
         const size_t at = size_t(slot) * kNodes + size_t(node);
         return float(base_[at] + lift_[at]) * kDepositUnit;
     }
-    // Bit x of byte 8 z + y: whether that node is inside.
-    const uint8_t* inside(int slot) const { return inside_.data() + size_t(slot) * kSide * kSide; }
+    // Bits of a block's nodes and of those next door, 9 x 9 x 9: bit x of [z][y].
+    struct NodeBits {
+        uint16_t rows[kSide + 1][kSide + 1];
+    };
+    // Which are inside.
+    void insideBits(int slot, NodeBits& out) const { gatherBits(inside_, slot, out); }
     // Fill at the particle before lifting, up to kFullCompany.
     float company(uint32_t row) const { return rows_[row].company; }
 
@@ -115,7 +124,9 @@ private:
     template <class F> void forChanged(Tasks& tasks, F&& f);
     void sortRows(const SurfaceInput& input);
     void countCompany(int slot, const SurfaceInput& input);
-    bool isFullAround(int slot, int k) const;
+    void gatherBits(const Array<uint8_t>& bits, int slot, NodeBits& out) const;
+    void markFull(int slot);
+    static void setFull(Row& row);
     void countCompanyOfLarge(const SurfaceInput& input);
     void setCompany(Row& row, int sum, Vec3 at, const SurfaceInput& input);
     void takeAway(int count, Tasks& tasks);
@@ -145,8 +156,8 @@ private:
     size_t tableUsed_ = 0;
     bool setChanged_ = false;
     int lastSlot_ = -1;
-    Array<int32_t> base_, lift_; // by slot and node, in kDepositUnit: fill before lifting, and what that adds
-    Array<uint8_t> inside_;
+    Array<int32_t> base_, lift_;   // by slot and node, in kDepositUnit: fill before lifting, and what that adds
+    Array<uint8_t> full_, inside_; // bit x of byte 8 z + y of each slot
 
     struct Line {
         int32_t begin, end; // of homes_: blocks in a row along x

@@ -52,10 +52,12 @@ void SurfaceField::clearTable() {
 
 // Slot of a block that may have to be made; -1 when there are too many.
 int SurfaceField::slotAt(int64_t x, int64_t y, int64_t z) {
-    // The next particle is often in the same block.
+    // The next particle is often in the same block or next door.
     if (lastSlot_ >= 0) {
         const Block& last = blocks_[lastSlot_];
-        if (last.x == x && last.y == y && last.z == z) return lastSlot_;
+        const int64_t dx = x - last.x + 1, dy = y - last.y + 1, dz = z - last.z + 1;
+        if (uint64_t(dx) < 3 && uint64_t(dy) < 3 && uint64_t(dz) < 3)
+            if (const int32_t slot = last.near[dz * 9 + dy * 3 + dx]; slot >= 0) return lastSlot_ = slot;
     }
     const uint64_t key = keyOf(x, y, z);
     const size_t found = entryOf(key);
@@ -161,7 +163,7 @@ bool SurfaceField::linkBlocks(const SurfaceInput& input) {
     }
     // Slots that are used again hold zeros: all that was brought there has been taken away.
     base_.resize(blocks_.size() * kNodes), lift_.resize(blocks_.size() * kNodes);
-    inside_.resizeRaw(blocks_.size() * kSide * kSide);
+    full_.resizeRaw(blocks_.size() * kSide * kSide), inside_.resizeRaw(blocks_.size() * kSide * kSide);
     return true;
 }
 
@@ -203,6 +205,23 @@ void SurfaceField::markAround(const Row& row) {
     forBits(kBlocksOfSides[row.reach], [&](int n) {
         if (const int32_t slot = blocks_[row.home].near[n]; slot >= 0) blocks_[slot].changed = true;
     });
+}
+
+void SurfaceField::gatherBits(const Array<uint8_t>& bits, int slot, NodeBits& out) const {
+    static constexpr uint8_t kNone[kSide * kSide] = {};
+    const Block& block = blocks_[slot];
+    for (int yz = 0; yz < 4; ++yz) {
+        const auto at = [&](int x) {
+            const int32_t other = block.near[nearAt(x, yz & 1, yz >> 1)];
+            return other < 0 ? kNone : bits.data() + size_t(other) * kSide * kSide;
+        };
+        const uint8_t *left = at(0), *right = at(1);
+        const int ys = yz & 1 ? 1 : kSide, zs = yz >> 1 ? 1 : kSide;
+        for (int z = 0; z < zs; ++z)
+            for (int y = 0; y < ys; ++y)
+                out.rows[z + (yz >> 1) * kSide][y + (yz & 1) * kSide] =
+                    uint16_t(left[z * kSide + y] | (right[z * kSide + y] & 1u) << kSide);
+    }
 }
 
 } // namespace thaw

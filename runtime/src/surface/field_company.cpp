@@ -27,40 +27,23 @@ float lift(float company, float cellPerRadius) {
 
 } // namespace
 
-float SurfaceField::mobility(float company) {
-    constexpr float kNone = 0.45f, kAll = 0.65f;
-    return std::clamp((company - kNone) / (kAll - kNone), 0.0f, 1.0f);
-}
-
-// Whether fill before lifting is enough everywhere around a particle, for which the eight nodes of its cell stand: then
-// so is its company, without counting. That goes for all but those at the surface.
-bool SurfaceField::isFullAround(int slot, int k) const {
-    constexpr int32_t kFull =
-        int32_t(0.9f / kDepositUnit); // what the nodes do not see between them is less than the rest
-    const Block& block = blocks_[slot];
-    const double perCell = 1 / cell_;
-    const int x = int(double(arrays_.x[k]) * perCell - double(block.x) * kSide),
-              y = int(double(arrays_.y[k]) * perCell - double(block.y) * kSide),
-              z = int(double(arrays_.z[k]) * perCell - double(block.z) * kSide);
-    for (int dz = 0; dz < 2; ++dz)
-        for (int dy = 0; dy < 2; ++dy)
-            for (int dx = 0; dx < 2; ++dx) {
-                const int nx = x + dx, ny = y + dy, nz = z + dz;
-                const int32_t other = block.near[nearAt(nx >= kSide, ny >= kSide, nz >= kSide)];
-                if (other < 0) return false;
-                const size_t node = size_t(((nz % kSide) * kSide + ny % kSide) * kSide + nx % kSide);
-                if (base_[size_t(other) * kNodes + node] < kFull) return false;
-            }
-    return true;
-}
-
 // Company of the particles whose centre is in the block.
 void SurfaceField::countCompany(int slot, const SurfaceInput& input) {
+    // Where fill before lifting is enough everywhere around a particle, for which the eight nodes of its cell stand, so
+    // is its company, without counting. That goes for all but those at the surface.
+    NodeBits nodes;
+    gatherBits(full_, slot, nodes);
+    uint16_t full[kSide][kSide];
+    for (int z = 0; z < kSide; ++z)
+        for (int y = 0; y < kSide; ++y) {
+            const unsigned all =
+                nodes.rows[z][y] & nodes.rows[z][y + 1] & nodes.rows[z + 1][y] & nodes.rows[z + 1][y + 1];
+            full[z][y] = uint16_t(all & all >> 1);
+        }
     const int32_t* starts = binStarts_.data() + size_t(slot) * kBlockBins;
     const Block& block = blocks_[slot];
-    const float first[3] = {float(double(block.x) * kSide * cell_), float(double(block.y) * kSide * cell_),
-                            float(double(block.z) * kSide * cell_)},
-                perCell = float(1 / cell_);
+    const double perCell = 1 / cell_,
+                 first[3] = {double(block.x) * kSide, double(block.y) * kSide, double(block.z) * kSide};
     constexpr int kTogether = 64;
     int which[kTogether], sums[kTogether];
     Runs runs;
@@ -69,25 +52,36 @@ void SurfaceField::countCompany(int slot, const SurfaceInput& input) {
             int count = 0;
             Box box;
             for (; k < end && count < kTogether; ++k) {
-                const Vec3 at{arrays_.x[k], arrays_.y[k], arrays_.z[k]};
-                if (isFullAround(slot, k))
-                    setCompany(rows_[sortedRows_[k]], kEnough, at, input);
+                const Vec3 at{float(double(arrays_.x[k]) * perCell - first[0]),
+                              float(double(arrays_.y[k]) * perCell - first[1]),
+                              float(double(arrays_.z[k]) * perCell - first[2])};
+                const auto cellOf = [](float v) { return std::min(int(v), kSide - 1); };
+                if (full[cellOf(at.z)][cellOf(at.y)] >> cellOf(at.x) & 1)
+                    setFull(rows_[sortedRows_[k]]);
                 else
                     which[count++] = k, box.grow(at);
             }
             if (count == 0) continue;
-            const float low[3] = {box.lower.x, box.lower.y, box.lower.z},
-                        up[3] = {box.upper.x, box.upper.y, box.upper.z};
-            float lower[3], upper[3];
-            for (int a = 0; a < 3; ++a)
-                lower[a] = (low[a] - first[a]) * perCell, upper[a] = (up[a] - first[a]) * perCell;
+            const float lower[3] = {box.lower.x, box.lower.y, box.lower.z},
+                        upper[3] = {box.upper.x, box.upper.y, box.upper.z};
             runsAround(slot, lower, upper, runs);
-            sumAround(arrays_, runs.begins, runs.ends, runs.count, boxOf(slot, lower, upper), which, count, sums);
+            sumAround(arrays_, runs.begins, runs.ends, runs.count, which, count, sums);
             for (int n = 0; n < count; ++n) {
                 const int at = which[n];
                 setCompany(rows_[sortedRows_[at]], sums[n], {arrays_.x[at], arrays_.y[at], arrays_.z[at]}, input);
             }
         }
+}
+
+void SurfaceField::setFull(Row& row) {
+    row.otherCompany = row.company != kFullCompany;
+    row.company = kFullCompany, row.excess = 0;
+}
+
+void SurfaceField::markFull(int slot) {
+    constexpr float kFull = 0.9f; // what the nodes do not see between them is less than the rest
+    markInside(base_.data() + size_t(slot) * kNodes, nullptr, int32_t(kFull / kDepositUnit),
+               full_.data() + size_t(slot) * kSide * kSide);
 }
 
 // Of a particle that has so much from those that are not large.
@@ -98,7 +92,8 @@ void SurfaceField::setCompany(Row& row, int sum, Vec3 at, const SurfaceInput& in
         const float t = std::max(1 - dot(d, d) * other.inverse, 0.0f);
         sum += int(std::lrint(double(other.amplitude * t * t * t) / double(kFillUnit)));
     }
-    const float company = sum < kEnough ? float(sum) * kFillUnit : kFullCompany;
+    if (sum >= kEnough) return setFull(row);
+    const float company = float(sum) * kFillUnit;
     row.otherCompany = company != row.company;
     row.company = company;
     row.excess = row.amplitude * (lift(company, float(cell_) * std::sqrt(row.inverse)) - 1);
@@ -109,7 +104,7 @@ void SurfaceField::countCompanyOfLarge(const SurfaceInput& input) {
     for (int k = end; k < int(rows_.size()); ++k) {
         const Vec3 at{arrays_.x[k], arrays_.y[k], arrays_.z[k]};
         int sum = 0;
-        sumAround(arrays_, &begin, &end, 1, {{at.x, at.y, at.z}, {}}, &k, 1, &sum);
+        sumAround(arrays_, &begin, &end, 1, &k, 1, &sum);
         setCompany(rows_[sortedRows_[k]], sum, at, input);
     }
 }

@@ -17,10 +17,10 @@ struct FillBox {
     float center[3], half[3]; // m
 };
 
-// For each of the particles `which`, all in the box: the sum of amplitude (1 - r^2 inverse)^3 over runs [begins, ends),
-// each rounded to kFillUnit.
-void sumAround(const FillArrays& from, const int* begins, const int* ends, int runs, const FillBox& box,
-               const int* which, int count, int* sums);
+// For each of the particles `which`: the sum of amplitude (1 - r^2 inverse)^3 over runs [begins, ends), each rounded to
+// kFillUnit.
+void sumAround(const FillArrays& from, const int* begins, const int* ends, int runs, const int* which, int count,
+               int* sums);
 
 // Copies the particles of runs that reach into the box, with inverse sharper in place of inverse, to arrays of `stride`
 // one after the other, x, y, z and inverse, and their rows, in their order; returns how many.
@@ -28,7 +28,7 @@ int copyNear(const FillArrays& from, const uint32_t* fromRows, const int* begins
              const FillBox& box, float sharper, float* to, int stride, uint32_t* rows);
 
 // Weights t^3, t = 1 - r^2 inverse, of those of `count` where t is above 0, and which they are, in their order;
-// returns how many. Reads up to seven more.
+// returns how many. Reads, and writes, up to seven more.
 int weigh(const float* near, int stride, int count, float x, float y, float z, float* weights, uint32_t* which);
 
 } // namespace thaw

@@ -12,18 +12,19 @@ namespace thaw {
 namespace {
 
 constexpr int kSide = SurfaceField::kSide, kNodes = SurfaceField::kNodes;
-constexpr int kWide = kSide + 1; // a block's cells have their last corners next door
-constexpr int kPart = kSide / 2; // vertices of a part of a block look for their origins together
+constexpr int kWide = kSide + 1;           // a block's cells have their last corners next door
+constexpr int kPart = kSide / 2;           // of a block's side
+constexpr uint64_t kPartMask = 0x0f0f0f0f; // nodes of a part in a plane
 
 // Shading shows bumps that the outline does not: two passes hide them on disordered particles, three flatten drips.
 constexpr int kNormalPasses = 2;
 constexpr int kMixturePasses = 2; // a particle of another material is as wide as two cells
 
-// Not __builtin_popcount, which is a call on the baseline.
-int countBits(unsigned eight) {
-    eight = (eight & 0x55) + (eight >> 1 & 0x55);
-    eight = (eight & 0x33) + (eight >> 2 & 0x33);
-    return int((eight & 0xf) + (eight >> 4));
+// Not __builtin_popcountll, which is a call on the baseline.
+uint32_t countBits(uint64_t v) {
+    v -= v >> 1 & 0x5555555555555555u;
+    v = (v & 0x3333333333333333u) + (v >> 2 & 0x3333333333333333u);
+    return uint32_t(((v + (v >> 4)) & 0x0f0f0f0f0f0f0f0fu) * 0x0101010101010101u >> 56);
 }
 
 int nodeAt(int x, int y, int z) { return (z * kSide + y) * kSide + x; }
@@ -33,39 +34,65 @@ int upper(const SurfaceField::Block& block, int bits) {
     return block.near[SurfaceField::nearAt(bits & 1, bits >> 1 & 1, bits >> 2 & 1)];
 }
 
-// Which nodes of a block's cells are inside: bit x of [z][y].
-struct Inside {
-    uint16_t rows[kWide][kWide];
-    bool some = false, every = true;
+// Where the surface goes through a block: in bit 8 y + x of [z].
+struct Crossings {
+    SurfaceField::NodeBits nodes;
+    uint64_t edges[3][kSide]; // by axis: those that start at the node
+    uint64_t cells[kSide];    // those that start at the node
+    bool any = false;
 
-    Inside(const SurfaceField& field, int slot) {
-        const SurfaceField::Block& block = field.block(slot);
-        for (int z = 0; z < kWide; ++z)
-            for (int y = 0; y < kWide; ++y) {
-                const int yz = (y == kSide) << 1 | (z == kSide) << 2, row = z % kSide * kSide + y % kSide;
-                const int left = upper(block, yz), right = upper(block, yz | 1);
-                unsigned bits = left < 0 ? 0 : field.inside(left)[row];
-                if (right >= 0) bits |= (field.inside(right)[row] & 1u) << kSide;
-                rows[z][y] = uint16_t(bits);
-                some |= bits != 0, every &= bits == 0x1ff;
+    Crossings(const SurfaceField& field, int slot) {
+        field.insideBits(slot, nodes);
+        Plane lower(nodes.rows[0]);
+        for (int z = 0; z < kSide; ++z) {
+            const Plane higher(nodes.rows[z + 1]);
+            edges[0][z] = lower.here ^ lower.nextX, edges[1][z] = lower.here ^ lower.nextY;
+            edges[2][z] = lower.here ^ higher.here;
+            cells[z] = (lower.some | higher.some) & ~(lower.every & higher.every);
+            any |= cells[z] != 0;
+            lower = higher;
+        }
+    }
+    // A bit for each corner of a cell.
+    unsigned corners(int x, int y, int z) const {
+        const auto two = [&](int ny, int nz) { return unsigned(nodes.rows[nz][ny] >> x & 3); };
+        return two(y, z) | two(y + 1, z) << 2 | two(y, z + 1) << 4 | two(y + 1, z + 1) << 6;
+    }
+    // f(x, y, z, corners) for the cells that the surface goes through.
+    template <class F> void forCells(F&& f) const {
+        for (int z = 0; z < kSide; ++z)
+            for (uint64_t left = cells[z]; left != 0; left &= left - 1) {
+                const int at = __builtin_ctzll(left);
+                f(at & 7, at >> 3, z, corners(at & 7, at >> 3, z));
             }
     }
-    // Of the edges along axis that start in row (y, z): those that cross the surface.
-    unsigned crossings(int y, int z, int axis) const {
-        const unsigned here = rows[z][y];
-        const unsigned there = axis == 0 ? here >> 1 : axis == 1 ? rows[z][y + 1] : rows[z + 1][y];
-        return (here ^ there) & 0xff;
-    }
-    // f(x, corners) for the cells of row (y, z) that the surface goes through; a bit for each corner.
-    template <class F> void forCells(int y, int z, F&& f) const {
-        const unsigned a = rows[z][y], b = rows[z][y + 1], c = rows[z + 1][y], d = rows[z + 1][y + 1];
-        const unsigned any = a | b | c | d, all = a & b & c & d;
-        for (unsigned cells = (any | any >> 1) & ~(all & all >> 1) & 0xff; cells != 0; cells &= cells - 1) {
-            const int x = __builtin_ctz(cells);
-            f(x, (a >> x & 3) | (b >> x & 3) << 2 | (c >> x & 3) << 4 | (d >> x & 3) << 6);
+
+private:
+    struct Plane {
+        uint64_t here = 0, nextX = 0, nextY = 0, some, every; // some, every: of the four of a cell in this plane
+        explicit Plane(const uint16_t rows[kWide]) {
+            for (int y = 0; y < kSide; ++y) {
+                here |= uint64_t(rows[y] & 0xff) << 8 * y, nextX |= uint64_t(rows[y] >> 1) << 8 * y;
+                nextY |= uint64_t(rows[y + 1] & 0xff) << 8 * y;
+            }
+            const uint64_t nextXY = nextX >> 8 | uint64_t(rows[kSide] >> 1) << 56;
+            some = here | nextX | nextY | nextXY, every = here & nextX & nextY & nextXY;
+        }
+    };
+};
+
+// How the corners of triangles are named, as edges: which upper block, axis and node. Of an edge of the cube, from the
+// cell's own code, where all of it is in the cell's block.
+struct EdgeCodes {
+    uint16_t fromCell[12];
+    EdgeCodes() {
+        for (int edge = 0; edge < 12; ++edge) {
+            const int corner = cubeCases().edgeStart[edge];
+            fromCell[edge] = uint16_t(edge / 4 * kNodes + nodeAt(corner & 1, corner >> 1 & 1, corner >> 2));
         }
     }
 };
+const EdgeCodes kEdgeCodes;
 
 } // namespace
 
@@ -142,53 +169,64 @@ void Surface::meshBlocks(const SurfaceInput& input, bool all, Tasks& tasks) {
 void Surface::count(int slot) {
     BlockMesh& mesh = meshes_[slot];
     mesh.vertexCount = mesh.codeCount = 0;
-    const Inside inside(field_, slot);
-    if (!inside.some || inside.every) return;
-    for (int z = 0; z < kSide; ++z)
-        for (int y = 0; y < kSide; ++y) {
-            for (int axis = 0; axis < 3; ++axis) mesh.vertexCount += uint32_t(countBits(inside.crossings(y, z, axis)));
-            inside.forCells(y, z,
-                            [&](int, unsigned corners) { mesh.codeCount += 3u * cubeCases().triangleCount[corners]; });
-        }
+    const Crossings crossings(field_, slot);
+    if (!crossings.any) return;
+    for (const auto& axis : crossings.edges)
+        for (uint64_t plane : axis) mesh.vertexCount += countBits(plane);
+    const CubeCases& cases = cubeCases();
+    crossings.forCells([&](int, int, int, unsigned corners) { mesh.codeCount += 3u * cases.triangleCount[corners]; });
 }
 
 void Surface::emit(int slot, const SurfaceInput& input, int worker) {
     const BlockMesh& mesh = meshes_[slot];
-    const Inside inside(field_, slot);
+    const Crossings crossings(field_, slot);
     OriginFinder finder(field_, floats_.data() + size_t(worker) * OriginFinder::kFloats * stride_,
                         ints_.data() + size_t(worker) * OriginFinder::kInts * stride_, stride_);
     uint16_t* edges = edgeVertices_.data() + size_t(slot) * 3 * kNodes;
     uint32_t vertex = 0;
+    // Vertices of a part of a block look for their origins together.
     for (int part = 0; part < 8; ++part) {
-        const int first[3] = {(part & 1) * kPart, (part >> 1 & 1) * kPart, (part >> 2) * kPart};
-        const float lower[3] = {float(first[0]), float(first[1]), float(first[2])};
-        const float higher[3] = {lower[0] + kPart, lower[1] + kPart, lower[2] + kPart};
-        bool looked = false;
-        for (int z = first[2]; z < first[2] + kPart; ++z)
-            for (int y = first[1]; y < first[1] + kPart; ++y)
-                for (int axis = 0; axis < 3; ++axis) {
-                    unsigned crossings = inside.crossings(y, z, axis) & (0xfu << first[0]);
-                    if (crossings != 0 && !looked) finder.look(slot, lower, higher), looked = true;
-                    for (; crossings != 0; crossings &= crossings - 1) {
-                        const int x = __builtin_ctz(crossings);
-                        emitVertex(slot, x, y, z, axis, finder, input, mesh.vertices.begin + vertex);
-                        edges[axis * kNodes + nodeAt(x, y, z)] = uint16_t(vertex++);
-                    }
+        const int x0 = (part & 1) * kPart, y0 = (part >> 1 & 1) * kPart, z0 = (part >> 2) * kPart;
+        const uint64_t mask = kPartMask << (8 * y0 + x0);
+        uint64_t all = 0;
+        int zBegin = z0 + kPart, zEnd = z0;
+        for (int z = z0; z < z0 + kPart; ++z) {
+            const uint64_t here = (crossings.edges[0][z] | crossings.edges[1][z] | crossings.edges[2][z]) & mask;
+            if (here != 0) all |= here, zBegin = std::min(zBegin, z), zEnd = z + 1;
+        }
+        if (all == 0) continue;
+        uint64_t column = all | all >> 32;
+        column = (column | column >> 16) & 0xffff, column = (column | column >> 8) & 0xff;
+        const float lower[3] = {float(__builtin_ctzll(column)), float(__builtin_ctzll(all) / 8), float(zBegin)};
+        const float upper[3] = {float(64 - __builtin_clzll(column)), float((63 - __builtin_clzll(all)) / 8 + 1),
+                                float(zEnd)};
+        finder.look(slot, lower, upper);
+        for (int z = zBegin; z < zEnd; ++z)
+            for (int axis = 0; axis < 3; ++axis)
+                for (uint64_t left = crossings.edges[axis][z] & mask; left != 0; left &= left - 1) {
+                    const int at = __builtin_ctzll(left);
+                    emitVertex(slot, at & 7, at >> 3, z, axis, finder, input, mesh.vertices.begin + vertex);
+                    edges[axis * kNodes + z * kSide * kSide + at] = uint16_t(vertex++);
                 }
     }
 
     const CubeCases& cases = cubeCases();
     uint16_t* out = codes_.data() + mesh.codes.begin;
-    for (int z = 0; z < kSide; ++z)
-        for (int y = 0; y < kSide; ++y)
-            inside.forCells(y, z, [&](int x, unsigned corners) {
-                for (int k = 0; k < 3 * cases.triangleCount[corners]; ++k) {
-                    const int edge = cases.triangles[corners][k], corner = cases.edgeStart[edge];
-                    const int ex = x + (corner & 1), ey = y + (corner >> 1 & 1), ez = z + (corner >> 2);
-                    const int owner = (ex == kSide) | (ey == kSide) << 1 | (ez == kSide) << 2;
-                    *out++ = uint16_t((owner * 4 + edge / 4) * kNodes + nodeAt(ex % kSide, ey % kSide, ez % kSide));
-                }
-            });
+    crossings.forCells([&](int x, int y, int z, unsigned corners) {
+        const uint8_t* triangles = cases.triangles[corners];
+        const int count = 3 * cases.triangleCount[corners];
+        if (std::max({x, y, z}) < kSide - 1) {
+            const int cell = nodeAt(x, y, z);
+            for (int k = 0; k < count; ++k) *out++ = uint16_t(cell + kEdgeCodes.fromCell[triangles[k]]);
+            return;
+        }
+        for (int k = 0; k < count; ++k) {
+            const int edge = triangles[k], corner = cases.edgeStart[edge];
+            const int ex = x + (corner & 1), ey = y + (corner >> 1 & 1), ez = z + (corner >> 2);
+            const int owner = ex >> 3 | ey >> 3 << 1 | ez >> 3 << 2;
+            *out++ = uint16_t((owner * 4 + edge / 4) * kNodes + nodeAt(ex & 7, ey & 7, ez & 7));
+        }
+    });
 }
 
 void Surface::emitVertex(int slot, int x, int y, int z, int axis, const OriginFinder& finder, const SurfaceInput& input,
