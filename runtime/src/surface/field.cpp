@@ -21,6 +21,24 @@ constexpr double kCoarsen = 1.26; // halves the volume of blocks
 constexpr int kPad = 8;           // lanes that may be read past the particles
 constexpr float kPi = 3.14159265f;
 
+// Largest coordinate. Of what is not negative the bits are in the order of the numbers; whole numbers are compared in
+// vectors.
+float farthestOf(const Vec4* positions, int count) {
+    int32_t most[4] = {};
+    for (int i = 0; i < count; ++i) {
+        int32_t bits[4];
+        std::memcpy(bits, &positions[i], sizeof bits);
+        for (int a = 0; a < 4; ++a) {
+            bits[a] &= 0x7fffffff;
+            most[a] = bits[a] > most[a] ? bits[a] : most[a];
+        }
+    }
+    float farthest;
+    const int32_t all = std::max({most[0], most[1], most[2]});
+    std::memcpy(&farthest, &all, sizeof farthest);
+    return farthest;
+}
+
 } // namespace
 
 SurfaceField::SurfaceField(Allocator& allocator)
@@ -43,18 +61,11 @@ SurfaceField::Change SurfaceField::update(const SurfaceInput& input, float wante
     const bool comparable = valid_ && asked_ == wantedCell && spacing_ == input.spacing;
     freshRows_.clear();
     if (comparable) {
-        for (int i = 0; i < common; ++i)
-            if (std::memcmp(&positions_[i], &input.positions[i], sizeof(Vec4)) != 0 ||
-                materials_[i] != input.materials[i] || bodies_[i] != input.bodies[i])
-                freshRows_.push(i);
+        findFresh(input, common);
         if (freshRows_.empty() && count == before) return Change::nothing;
     }
 
-    float farthest = 0;
-    for (int i = 0; i < count; ++i) {
-        const Vec4& p = input.positions[i];
-        farthest = std::max({farthest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    }
+    const float farthest = farthestOf(input.positions, count);
     // Positions carry 24 bits: a finer cell has nothing to show, and keys would not hold its blocks.
     const double wanted = std::max(double(wantedCell), std::ldexp(double(farthest), -(kAxisBits + 1)));
 
@@ -81,12 +92,7 @@ SurfaceField::Change SurfaceField::update(const SurfaceInput& input, float wante
     forChanged(tasks, [&](int slot) { markFull(slot); });
     forChanged(tasks, [&](int slot) { countCompany(slot, input); });
     countCompanyOfLarge(input);
-    // Whose company has changed counts for another amount in all blocks that it reaches.
-    for (Row& row : rows_) {
-        if (row.otherCompany && patch) markAround(row);
-        row.otherCompany = false;
-    }
-    liftRows(tasks);
+    liftRows(patch, tasks);
     forChanged(tasks, [&](int slot) { finishBlock(slot); });
 
     positions_.resizeRaw(count), materials_.resizeRaw(count), bodies_.resizeRaw(count);
@@ -97,6 +103,23 @@ SurfaceField::Change SurfaceField::update(const SurfaceInput& input, float wante
     }
     valid_ = true;
     return patch ? Change::blocks : Change::everything;
+}
+
+// Rows of the first `common` that are not what they were the last time.
+void SurfaceField::findFresh(const SurfaceInput& input, int common) {
+    constexpr int kTogether = 32; // most are what they were
+    const auto same = [&](int begin, int count) {
+        const size_t n = size_t(count);
+        return std::memcmp(&positions_[begin], &input.positions[begin], n * sizeof(Vec4)) == 0 &&
+               std::memcmp(&materials_[begin], &input.materials[begin], n) == 0 &&
+               std::memcmp(&bodies_[begin], &input.bodies[begin], n * sizeof(uint16_t)) == 0;
+    };
+    for (int begin = 0; begin < common; begin += kTogether) {
+        const int end = std::min(begin + kTogether, common);
+        if (same(begin, end - begin)) continue;
+        for (int i = begin; i < end; ++i)
+            if (!same(i, 1)) freshRows_.push(i);
+    }
 }
 
 // Everything from the start with the cell as it is; false when that takes too many blocks.
@@ -146,7 +169,9 @@ bool SurfaceField::placeRows(const SurfaceInput& input, const int32_t* begin, co
             row.reach |= uint8_t((local - reach <= 0) << 2 * a | (local + reach >= kSide) << (2 * a + 1));
         }
         row.bin = uint8_t((bin[2] * kBins + bin[1]) * kBins + bin[0]);
-        row.home = slotAt(block[0], block[1], block[2]);
+        const bool isLast = lastSlot_ >= 0 && blocks_[lastSlot_].x == block[0] && blocks_[lastSlot_].y == block[1] &&
+                            blocks_[lastSlot_].z == block[2];
+        row.home = isLast ? lastSlot_ : slotAt(block[0], block[1], block[2]);
         if (row.home < 0) return false;
     }
     return true;
@@ -184,11 +209,17 @@ void SurfaceField::runsAround(int slot, const float lower[3], const float upper[
     }
     out.count = 0;
     const Block& block = blocks_[slot];
+    const int dxFirst = first[0] < 0       ? -1
+                        : first[0] < kBins ? 0
+                                           : 1,
+              dxLast = last[0] < 0       ? -1
+                       : last[0] < kBins ? 0
+                                         : 1;
     for (int z = first[2]; z <= last[2]; ++z) {
         const int dz = z < 0 ? -1 : z < kBins ? 0 : 1;
         for (int y = first[1]; y <= last[1]; ++y) {
             const int dy = y < 0 ? -1 : y < kBins ? 0 : 1;
-            for (int dx = -1; dx <= 1; ++dx) {
+            for (int dx = dxFirst; dx <= dxLast; ++dx) {
                 const int from = std::max(first[0], dx * kBins), to = std::min(last[0], dx * kBins + kBins - 1);
                 const int32_t other = block.near[nearAt(dx, dy, dz)];
                 if (from > to || other < 0) continue;

@@ -111,6 +111,7 @@ private:
         bool fresh;        // its nodes do not have it yet, or are to lose it
     };
 
+    void findFresh(const SurfaceInput& input, int common);
     bool rebuild(const SurfaceInput& input);
     bool placeRows(const SurfaceInput& input, const int32_t* begin, const int32_t* end);
     int slotAt(int64_t x, int64_t y, int64_t z);
@@ -131,7 +132,7 @@ private:
     void setCompany(Row& row, int sum, Vec3 at, const SurfaceInput& input);
     void takeAway(int count, Tasks& tasks);
     void bring(Tasks& tasks);
-    void liftRows(Tasks& tasks);
+    void liftRows(bool patch, Tasks& tasks);
     template <class F> void depositStirred(Array<int32_t>& sums, Tasks& tasks, F&& amplitudesOf);
     void depositLarge(Array<int32_t>& sums, const float* amplitudes, Tasks& tasks);
     void finishBlock(int slot);

@@ -98,9 +98,13 @@ void SurfaceField::bring(Tasks& tasks) {
 }
 
 // What lifting adds, where it is not what it was.
-void SurfaceField::liftRows(Tasks& tasks) {
-    for (const Row& row : rows_)
+void SurfaceField::liftRows(bool patch, Tasks& tasks) {
+    for (Row& row : rows_) {
         if (row.excess != row.lifted && row.home >= 0) blocks_[row.home].stirred = true;
+        // Counts for another amount in all blocks that it reaches.
+        if (row.otherCompany && patch) markAround(row);
+        row.otherCompany = false;
+    }
     depositStirred(lift_, tasks, [&](int k, auto&& push) {
         Row& row = rows_[sortedRows_[k]];
         if (row.excess == row.lifted) return;

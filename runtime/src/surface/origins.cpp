@@ -36,13 +36,13 @@ uint32_t OriginFinder::deepest(Vec3 at) const {
     return row;
 }
 
-void OriginFinder::find(Vec3 at, Origins& out) const {
+int OriginFinder::find(Vec3 at, Origins& out) const {
     int n = weigh(near_, stride_, count_, at.x, at.y, at.z, weights_, which_);
     if (n == 0) {
         std::fill(out.row, out.row + Origins::kMost, deepest(at));
         std::fill(out.share, out.share + Origins::kMost, 0.0f);
         out.share[0] = 1;
-        return;
+        return 1;
     }
     for (; n > Origins::kMost; --n) { // without the least, of equals the last
         int least = 0;
@@ -53,10 +53,9 @@ void OriginFinder::find(Vec3 at, Origins& out) const {
     }
     float sum = 0;
     for (int k = 0; k < n; ++k) sum += weights_[k];
-    for (int k = 0; k < Origins::kMost; ++k) {
-        out.row[k] = rows_[which_[k < n ? k : 0]];
-        out.share[k] = k < n ? weights_[k] / sum : 0.0f;
-    }
+    for (int k = 0; k < n; ++k) out.row[k] = rows_[which_[k]], out.share[k] = weights_[k] / sum;
+    for (int k = n; k < Origins::kMost; ++k) out.row[k] = out.row[0], out.share[k] = 0;
+    return n;
 }
 
 } // namespace thaw

@@ -24,8 +24,8 @@ public:
 
     // All particles that reach into the box, in cells from the block's first node.
     void look(int slot, const float lower[3], const float upper[3]);
-    // Of a point in that box, m, where there is some fill.
-    void find(Vec3 at, Origins& out) const;
+    // Of a point in that box, m, where there is some fill; returns how many there are.
+    int find(Vec3 at, Origins& out) const;
 
 private:
     uint32_t deepest(Vec3 at) const;

@@ -68,10 +68,8 @@ void moveToNeighborsLanes(const MeshCorners& mesh, const uint32_t* indices, cons
             const float along = (1 - w) * (m.x * normal.x + m.y * normal.y + m.z * normal.z);
             move = sub(move, scale(loadRow(normal), along));
         }
-        Vec4 moved;
-        storeRow(add(here, move), moved);
-        moved.w = w;
-        to[v] = moved;
+        storeRow(add(here, move), to[v]);
+        to[v].w = w;
     }
 }
 

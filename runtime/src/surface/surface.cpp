@@ -240,17 +240,18 @@ void Surface::emitVertex(int slot, int x, int y, int z, int axis, const OriginFi
         other < 0 ? 0 : field_.value(other, nodeAt(next[0] % kSide, next[1] % kSide, next[2] % kSide));
     // Clear of the nodes, so that no triangle is without area.
     const float t = std::clamp((SurfaceField::kIso - fill) / (nextFill - fill), 0.02f, 0.98f);
-    double at[3] = {double(block.x) * kSide + x, double(block.y) * kSide + y, double(block.z) * kSide + z};
-    at[axis] += double(t);
     const double cell = field_.cell();
-    const Vec3 p{float(at[0] * cell), float(at[1] * cell), float(at[2] * cell)};
+    const auto place = [&](int32_t first, int node, int a) {
+        return float((double(first) * kSide + node + (axis == a ? double(t) : 0.0)) * cell);
+    };
+    const Vec3 p{place(block.x, x, 0), place(block.y, y, 1), place(block.z, z, 2)};
 
     Origins& origins = origins_[to];
-    finder.find(p, origins);
+    const int found = finder.find(p, origins);
     float company = 0;
     int nearest = 0;
     bool oneMaterial = true;
-    for (int k = 0; k < Origins::kMost; ++k) {
+    for (int k = 0; k < found; ++k) {
         company += origins.share[k] * field_.company(origins.row[k]);
         if (origins.share[k] > origins.share[nearest]) nearest = k;
         oneMaterial &= input.materials[origins.row[k]] == input.materials[origins.row[0]];
