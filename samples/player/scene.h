@@ -192,7 +192,8 @@ Scene loadScene(const std::string& path);
 Scene parseScene(const std::string& text, const std::string& file, const std::string& directory);
 // The scene as text that parseScene reads back to the same values, bit for bit.
 std::string writeScene(const Scene& scene);
-// Writes it to a file. Throws std::runtime_error when that fails.
+// Writes it to a file, beside it first and then in its place. Throws std::runtime_error with the reason; what stood
+// there is then untouched.
 void saveScene(const Scene& scene, const std::string& path);
 
 const char* shapeName(ShapeType type);

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
 #include "scene.h"
+#include "view/part_file.h"
 
+#include <cerrno>
 #include <charconv>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <initializer_list>
 
@@ -348,10 +352,19 @@ std::string writeScene(const Scene& scene) {
 }
 
 void saveScene(const Scene& scene, const std::string& path) {
-    std::ofstream out(path, std::ios::binary);
+    std::error_code none;
+    const std::filesystem::path place(path);
+    view::PartFile file(std::filesystem::is_symlink(place, none) ? std::filesystem::canonical(place, none).string()
+                                                                 : path);
+    const auto refuse = [&](const std::string& why) { throw std::runtime_error(oneLine(path, 400) + ": " + why); };
+    errno = 0;
+    std::ofstream out(file.part(), std::ios::binary);
+    if (!out) refuse(std::string("cannot be written: ") + std::strerror(errno));
     out << writeScene(scene);
-    out.flush();
-    if (!out) throw std::runtime_error(oneLine(path, 400) + ": cannot be written");
+    out.close();
+    if (!out) refuse(std::string("cannot be written: ") + (errno ? std::strerror(errno) : "the disk may be full"));
+    std::string error;
+    if (!file.moveToPlace(error)) refuse(error);
 }
 
 } // namespace thaw::scene
