@@ -88,6 +88,21 @@ TEST_CASE("surface: a change meshes the blocks around it, warmth alone none") {
     CHECK(mesher.surface.meshedBlocks() <= all + 8);
 }
 
+TEST_CASE("surface: a particle beside a vertex that takes nothing from its block leaves no trace") {
+    Wax wax;
+    constexpr float kCell = 1.5f;
+    const float cell = kCell * wax.spacing;
+    // So many in one place that the surface is outside of all kernels; and one that is nearer, next door.
+    for (int k = 0; k < 200; ++k) wax.add(cell * Vec3{0.01f, 2.96f, 4.01f}, wax.spacing, 300);
+    wax.add(cell * Vec3{-1.33f, 4.746f, 4}, wax.spacing, 900, 0, 7, 7);
+    Mesher kept, fresh;
+    REQUIRE(kept(wax, kCell, 0).positions.size() > 20);
+    take(wax, 200);
+    kept(wax, kCell, 0);
+    for (float t : kept.surface.temperatures) CHECK(t == doctest::Approx(300));
+    CHECK(sameBits(kept.surface, fresh(wax, kCell, 0)));
+}
+
 TEST_CASE("surface: what changes for long takes no more memory") {
     Dice dice;
     Wax wax = slab(dice);

@@ -83,6 +83,9 @@ public:
     // Fill at the particle before lifting, up to kFullCompany.
     float company(uint32_t row) const { return rows_[row].company; }
 
+    // Whether a particle changes the block when it comes or goes.
+    bool reaches(uint32_t row, int slot) const;
+
     // Particles in runs, each of some that lie side by side: all that may reach into the box, in cells from the
     // block's first node, whatever order that is - it depends on their places and rows only.
     struct Runs {

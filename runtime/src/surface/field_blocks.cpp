@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace thaw {
 namespace {
@@ -197,6 +198,15 @@ bool SurfaceField::reachOfLarge(const SurfaceInput& input) {
                 }
     }
     return true;
+}
+
+bool SurfaceField::reaches(uint32_t row, int slot) const {
+    const Row& r = rows_[row];
+    if (r.home < 0) return true; // there is no change by blocks then
+    const Block &home = blocks_[r.home], &block = blocks_[slot];
+    const int dx = block.x - home.x, dy = block.y - home.y, dz = block.z - home.z;
+    if (std::max({std::abs(dx), std::abs(dy), std::abs(dz)}) > 1) return false;
+    return kBlocksOfSides[r.reach] >> nearAt(dx, dy, dz) & 1;
 }
 
 // The blocks that the particle reaches are not what they were.

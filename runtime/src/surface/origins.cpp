@@ -14,6 +14,7 @@ constexpr float kSharper = (1.8f / 1.4f) * (1.8f / 1.4f);
 } // namespace
 
 void OriginFinder::look(int slot, const float lower[3], const float upper[3]) {
+    slot_ = slot;
     field_.runsAround(slot, lower, upper, runs_);
     if (field_.largeCount() > 0) {
         runs_.begins[runs_.count] = field_.rowCount() - field_.largeCount();
@@ -23,7 +24,8 @@ void OriginFinder::look(int slot, const float lower[3], const float upper[3]) {
                       field_.boxOf(slot, lower, upper), kSharper, near_, stride_, rows_);
 }
 
-// The particle that a point is deepest in the kernel of.
+// The particle that a point is deepest in the kernel of, or least far outside: of those that reach the block, which is
+// looked at again when they change.
 uint32_t OriginFinder::deepest(Vec3 at) const {
     const FillArrays& from = field_.arrays();
     float best = INFINITY;
@@ -31,7 +33,8 @@ uint32_t OriginFinder::deepest(Vec3 at) const {
     for (int run = 0; run < runs_.count; ++run)
         for (int k = runs_.begins[run]; k < runs_.ends[run]; ++k) {
             const Vec3 d = Vec3{from.x[k], from.y[k], from.z[k]} - at;
-            if (const float q = dot(d, d) * from.inverse[k]; q < best) best = q, row = field_.rowsOfArrays()[k];
+            const float q = dot(d, d) * from.inverse[k];
+            if (q < best && field_.reaches(field_.rowsOfArrays()[k], slot_)) best = q, row = field_.rowsOfArrays()[k];
         }
     return row;
 }

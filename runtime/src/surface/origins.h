@@ -32,6 +32,7 @@ private:
 
     const SurfaceField& field_;
     SurfaceField::Runs runs_;
+    int slot_ = 0;
     float *near_, *weights_; // x, y, z, 1 / R^2 one after the other
     uint32_t *rows_, *which_;
     int stride_, count_ = 0;
