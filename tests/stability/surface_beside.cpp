@@ -74,6 +74,7 @@ TEST_CASE("a mesh that is made beside the steps is that of its start") {
             const bool drawing = frame > 0;
             const Copy drawn(view); // stays while the next one is made
             REQUIRE_MESSAGE(thawWorld_StartSurface(other.world, &other.surface) == thawResult_ok, other.error());
+            CHECK(other.counters().memoryBytes > 0); // while the maker takes memory
             one.step(1), other.step(1);
             if (drawing) CHECK(drawn == Copy(view));
             REQUIRE(thawWorld_FinishSurface(other.world, &view) == thawResult_ok);
@@ -173,7 +174,9 @@ TEST_CASE("a mesh in the host's own layout") {
     refused([](thawSurfaceBuffers& s) { s.normalOffset = 36; }, "normalOffset");
     refused([](thawSurfaceBuffers& s) { s.bodyOffset = 25; }, "bodyOffset");
     refused([](thawSurfaceBuffers& s) { s.positionOffset = -2; }, "positionOffset");
+    refused([](thawSurfaceBuffers& s) { s.positionOffset = INT32_MAX - 3; }, "positionOffset");
     refused([](thawSurfaceBuffers& s) { s.indexSize = 3; }, "indexSize");
+    refused([](thawSurfaceBuffers& s) { s.indices = static_cast<char*>(s.indices) + 1; }, "indices");
     refused([](thawSurfaceBuffers& s) { s.vertices = nullptr; }, "vertices");
     refused([](thawSurfaceBuffers& s) { s.indices = nullptr; }, "indices");
     thawSurfaceBuffers never{};

@@ -138,7 +138,8 @@ typedef void thawTask(void* context);
 
 /* The host's threads. enqueue hands over one task and returns a handle for finish, or NULL when it already ran it
  * inline; finish blocks until that task is done. Both are called from the thread that calls thaw, at most workerCount -
- * 1 tasks are in flight, and one more between thawWorld_StartSurface and thawWorld_FinishSurface. All NULL: a pool of workerCount - 1 own threads. */
+ * 1 tasks are in flight, and one more between thawWorld_StartSurface and thawWorld_FinishSurface. All NULL: a pool of
+ * workerCount - 1 own threads, and one more from the first thawWorld_StartSurface on. */
 typedef struct thawTaskSystem {
     int workerCount; /* threads that take part, the caller included; range 1..64, default 1 */
     void* (*enqueue)(thawTask* task, void* context, void* user);
@@ -752,7 +753,7 @@ typedef struct thawSurfaceBuffers {
     int32_t positionOffset, normalOffset;             /* three floats; default 0 and 12 */
     int32_t temperatureOffset, liquidFractionOffset;  /* a float; default 24 and 28 */
     int32_t materialOffset, bodyOffset, mixtureOffset; /* 1, 2 and 8 bytes as in thawSurfaceView; default -1 */
-    void* indices;
+    void* indices; /* aligned to indexSize */
     int32_t indexCapacity;
     int32_t indexSize; /* bytes, 2 or 4; default 4. Two number 65,536 vertices */
 } thawSurfaceBuffers;

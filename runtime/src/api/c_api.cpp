@@ -303,11 +303,13 @@ void checkSurfaceBuffers(Check& c, const thawSurfaceView& view, const thawSurfac
     if (c.ok() && (b.vertexStride % 4 != 0 || reinterpret_cast<uintptr_t>(b.vertices) % 4 != 0))
         c.fail(thawResult_invalidArgument, "vertices, vertexStride: must be multiples of 4");
     for (const SurfaceAttribute& f : surfaceAttributes(b))
-        if (f.offset != -1 && (f.offset < 0 || f.offset + f.bytes > b.vertexStride || f.offset % f.align != 0))
+        if (f.offset != -1 && (f.offset < 0 || f.offset > b.vertexStride - f.bytes || f.offset % f.align != 0))
             c.fail(thawResult_invalidArgument, "%s: %d bytes there are not within vertexStride, or not aligned to %d",
                    f.name, f.bytes, f.align);
     if (b.indexSize != 2 && b.indexSize != 4)
         c.fail(thawResult_invalidArgument, "indexSize: must be 2 or 4, got %d", b.indexSize);
+    if (c.ok() && reinterpret_cast<uintptr_t>(b.indices) % static_cast<uintptr_t>(b.indexSize) != 0)
+        c.fail(thawResult_invalidArgument, "indices: must be aligned to indexSize");
     if (!c.ok()) return;
     if (!b.vertices && view.vertexCount > 0) c.fail(thawResult_invalidArgument, "vertices: is NULL");
     if (!b.indices && view.triangleCount > 0) c.fail(thawResult_invalidArgument, "indices: is NULL");

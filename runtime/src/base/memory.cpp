@@ -24,4 +24,14 @@ void Allocator::release(void* memory, size_t size, size_t alignment) noexcept {
         ::operator delete(memory, std::align_val_t(alignment));
 }
 
+size_t Allocator::bytes() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return bytes_;
+}
+
+size_t Allocator::calls() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return calls_;
+}
+
 } // namespace thaw

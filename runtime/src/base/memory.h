@@ -23,12 +23,12 @@ public:
 
     void* allocate(size_t size, size_t alignment);
     void release(void* memory, size_t size, size_t alignment) noexcept;
-    size_t bytes() const { return bytes_; }
-    size_t calls() const { return calls_; } // allocations since creation: a step after warm-up must not raise it
+    size_t bytes() const;
+    size_t calls() const; // allocations since creation: a step after warm-up must not raise it
 
 private:
     thawAllocator hook_;
-    std::mutex mutex_; // a mesh may be made while the world steps
+    mutable std::mutex mutex_; // a mesh may be made while the world steps
     size_t bytes_ = 0, calls_ = 0;
 };
 
