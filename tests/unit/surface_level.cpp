@@ -35,7 +35,8 @@ TEST_CASE("surface level: coarser at once, finer after a while, and bounds") {
     CHECK(made(level, 0.5f, 0.8f, 1) == 1);
     for (int k = 0; k < 10; ++k) l = made(level, 50, 0.8f, 0, 2);
     CHECK(l == 2);
-    CHECK(made(level, 50, 0.8f, 3, 2) == 2); // the coarsest goes before the finest
+    CHECK(made(level, 50, 0.8f, 3, 2) == 3); // thawBudget.most goes before least
+    CHECK(made(level, 1, 0, 2, 1) == 2);
 }
 
 TEST_CASE("surface level: one mesh that was interrupted changes nothing") {

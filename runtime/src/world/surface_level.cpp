@@ -24,7 +24,7 @@ float share(int level) { return std::pow(kOfFiner, float(level)); }
 float SurfaceLevel::cells(int level) { return kCells[std::clamp(level, 0, kCoarsest)]; }
 
 int SurfaceLevel::choose(float milliseconds, int finest, int coarsest) {
-    finest = std::min(finest, coarsest);
+    coarsest = std::max(coarsest, finest);
     if (!(milliseconds > 0)) return level_ = finest;
     level_ = std::clamp(level_, finest, coarsest);
     int fits = finest;

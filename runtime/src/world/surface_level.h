@@ -16,7 +16,8 @@ public:
     static constexpr int kCoarsest = 3;
     static float cells(int level); // as wide as those of level 0: 2^(level / 3)
 
-    // milliseconds: that a mesh may take, nominal ones by fixed prices; 0: any.
+    // milliseconds: that a mesh may take, nominal ones by fixed prices; 0: any. Of the
+    // levels that it may have, the finest goes before the coarsest.
     int choose(float milliseconds, int finest, int coarsest);
 
     struct Made {
