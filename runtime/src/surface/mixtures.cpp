@@ -36,7 +36,8 @@ struct Kinds {
         }
         int left = 255;
         for (int k = used - 1; k >= 0; --k) {
-            const int share = k == 0 ? left : std::min(left, int(255 * sum[k] / all + 0.5f));
+            // Rounded down, so that the first has no less than those that are as much.
+            const int share = k == 0 ? left : std::min(left, int(255 * sum[k] / all));
             if (share > 0) out.material[k] = material[k], out.share[k] = uint8_t(share), left -= share;
         }
     }
