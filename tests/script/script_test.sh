@@ -39,6 +39,7 @@ expect 2 'one preset at most' build release debug
 expect 0 'usage: ./thaw gallery' gallery --help
 expect 2 "unknown argument '--fast'" gallery --fast
 expect 2 "no picture 'mona_lisa'" gallery mona_lisa
+expect 2 "no picture 'mona_lisa'" gallery candle mona_lisa
 expect 2 '--check takes no names' gallery --check candle
 expect 0 'capture samples/scenes/candle.json' gallery --list
 expect 0 'usage: ./thaw clean' clean --help
@@ -80,6 +81,23 @@ staleSays 'spoon.png: is not in gallery.txt'
 rm stale/samples/gallery/spoon.png
 sed -i '/^| !\[burn\]/d' stale/samples/gallery/README.md
 staleSays 'README.md: its table is not that of gallery.txt'
+
+# A picture that could not be put in its place does not count as made.
+mkdir -p stale/build/release/bin stale/tools
+touch stale/build/release/build.ninja
+printf '#!/bin/sh\nmkdir -p out/gallery/bar\nfor f in sheet capture_000; do echo new >out/gallery/bar/$f.png; done\n' >stale/build/release/bin/thaw
+printf '#!/bin/sh\nexit 0\n' >stale/tools/cmake
+printf '#!/bin/sh\nexit 1\n' >stale/tools/cp
+chmod +x stale/build/release/bin/thaw stale/tools/*
+echo '# another' >>stale/samples/scenes/bar.json
+if PATH=$PWD/stale/tools:$PATH ./stale/thaw gallery bar.png >/dev/null 2>&1; then
+    echo 'script: gallery said nothing of a picture that it could not copy'
+    failed=1
+fi
+staleSays 'bar.png: its command, scene or mesh'
+rm stale/tools/cp
+PATH=$PWD/stale/tools:$PATH ./stale/thaw gallery bar.png >/dev/null || { echo 'script: gallery does not make a picture'; failed=1; }
+[[ $(<stale/samples/gallery/bar.png) == new ]] || { echo 'script: the new picture is not in its place'; failed=1; }
 rm -r stale
 
 # Without root, without sudo and with a package missing it must say what to install, not fail in the middle.
