@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -52,8 +53,9 @@ public:
                                        "rawvideo", "-pix_fmt",     "rgba",      "-video_size", size,       "-framerate",
                                        rate,       "-i",           "-",         "-an",         "-pix_fmt", "yuv420p"};
         // VP9 keeps to a low bit rate unless told a quality.
-        if (std::filesystem::path(animation_.path).extension() == ".webm")
-            words.insert(words.end(), {"-crf", "24", "-b:v", "0"});
+        std::string ending = std::filesystem::path(animation_.path).extension().string();
+        for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+        if (ending == ".webm") words.insert(words.end(), {"-crf", "24", "-b:v", "0"});
         words.push_back(std::filesystem::absolute(place_.part()).string()); // never taken for an option
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());
