@@ -62,8 +62,8 @@ bool freeSlot(const std::vector<Slot>& slots, int most, const char* field, const
 World::World(const thawWorldDef& d)
     : def(d), allocator(d.allocator), tasks(d.tasks), tag(makeTag(this)), particles(allocator), neighbors_(allocator),
       motion_(allocator), rigid_(allocator), rigidLiquid_(allocator), heat_(allocator), hold_(allocator),
-      anchors_(allocator), bonds_(allocator), surface_(allocator, d.tasks), splats_(allocator), reference_(allocator), levels_(allocator),
-      control_(allocator), volume_(allocator), invDensity_(allocator), featureSizes_(allocator),
+      anchors_(allocator), bonds_(allocator), surface_(allocator, d.tasks), splats_(allocator), reference_(allocator),
+      levels_(allocator), control_(allocator), volume_(allocator), invDensity_(allocator), featureSizes_(allocator),
       blockTotals_(allocator) {
     particles.allocate(d.maxParticles);
     const size_t n = static_cast<size_t>(d.maxParticles) + Particles::kPadding;
