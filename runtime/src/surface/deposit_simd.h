@@ -13,6 +13,8 @@ namespace thaw {
 // within 1e-5 spacings of a float's and overflows with 30,000 particles in one place.
 constexpr float kDepositUnit = 1.0f / (1 << 18);
 
+constexpr float kFillUnit = 1.0f / 65536; // of fill at particles
+
 // Where a block of 8^3 nodes is, and how wide its cells are.
 struct FillBlock {
     double first[3], perCell; // of the first node, in cells; 1 / m
@@ -39,6 +41,11 @@ void addTile(DepositTile& tile, int32_t* const around[27]);
 // Brings `count` particles from `first` on, wherever they are, to the nodes of one block.
 void depositAcross(const FillArrays& from, int first, const float* amplitudes, int count, const FillBlock& block,
                    int32_t* nodes);
+
+// For each of the particles `which`: the sum of amplitude (1 - r^2 inverse)^3 over runs [begins, ends), each rounded to
+// kFillUnit.
+void sumAround(const FillArrays& from, const int* begins, const int* ends, int runs, const int* which, int count,
+               int* sums);
 
 // Bit x of byte 8 z + y: whether the sum of both at that node is iso or more; lift may be null.
 void markInside(const int32_t* base, const int32_t* lift, int32_t iso, uint8_t* bits);

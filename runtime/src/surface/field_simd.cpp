@@ -16,12 +16,6 @@ HWY_INLINE F32 outside(F32 v, float center, float half) {
     return hn::Max(hn::Sub(hn::Abs(hn::Sub(v, all(center))), all(half)), zero());
 }
 
-// In kFillUnit, which is in the amplitude.
-HWY_INLINE hn::Vec<TagI32> share(F32 dx, F32 dy, F32 dz, F32 inverse, F32 amplitude) {
-    const F32 t = hn::Max(hn::NegMulAdd(dot3(dx, dy, dz, dx, dy, dz), inverse, all(1)), zero());
-    return hn::NearestInt(hn::Mul(hn::Mul(amplitude, t), hn::Mul(t, t)));
-}
-
 HWY_INLINE Mask reaches(F32 x, F32 y, F32 z, F32 inverse, const FillBox& box) {
     const F32 dx = outside(x, box.center[0], box.half[0]), dy = outside(y, box.center[1], box.half[1]),
               dz = outside(z, box.center[2], box.half[2]);
@@ -47,34 +41,6 @@ HWY_INLINE int listNear(const FillArrays& from, int begin, int end, const FillBo
             out[count++] = static_cast<uint32_t>(word + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits)));
     }
     return count;
-}
-
-void sumAroundLanes(const FillArrays& from, const int* begins, const int* ends, int runs, const int* which, int rows,
-                    int* sums) {
-    // Four at a time share what is loaded. All of the runs: to pick first what is near costs more than it saves.
-    for (int i = 0; i < rows; i += 4) {
-        const int left = rows - i, a = which[i], b = which[left > 1 ? i + 1 : i], c = which[left > 2 ? i + 2 : i],
-                  d = which[left > 3 ? i + 3 : i];
-        const F32 x0 = all(from.x[a]), x1 = all(from.x[b]), x2 = all(from.x[c]), x3 = all(from.x[d]);
-        const F32 y0 = all(from.y[a]), y1 = all(from.y[b]), y2 = all(from.y[c]), y3 = all(from.y[d]);
-        const F32 z0 = all(from.z[a]), z1 = all(from.z[b]), z2 = all(from.z[c]), z3 = all(from.z[d]);
-        auto s0 = hn::Zero(kI32), s1 = s0, s2 = s0, s3 = s0;
-        for (int run = 0; run < runs; ++run)
-            for (int k = begins[run]; k < ends[run]; k += kLanes) {
-                const F32 x = load(from.x + k), y = load(from.y + k), z = load(from.z + k);
-                const F32 inverse = load(from.inverse + k);
-                const F32 amplitude = hn::IfThenElseZero(hn::FirstN(kF32, static_cast<size_t>(ends[run] - k)),
-                                                         hn::Mul(load(from.amplitude + k), all(1 / kFillUnit)));
-                s0 = hn::Add(s0, share(hn::Sub(x, x0), hn::Sub(y, y0), hn::Sub(z, z0), inverse, amplitude));
-                s1 = hn::Add(s1, share(hn::Sub(x, x1), hn::Sub(y, y1), hn::Sub(z, z1), inverse, amplitude));
-                s2 = hn::Add(s2, share(hn::Sub(x, x2), hn::Sub(y, y2), hn::Sub(z, z2), inverse, amplitude));
-                s3 = hn::Add(s3, share(hn::Sub(x, x3), hn::Sub(y, y3), hn::Sub(z, z3), inverse, amplitude));
-            }
-        sums[i] = hn::GetLane(hn::SumOfLanes(kI32, s0));
-        if (left > 1) sums[i + 1] = hn::GetLane(hn::SumOfLanes(kI32, s1));
-        if (left > 2) sums[i + 2] = hn::GetLane(hn::SumOfLanes(kI32, s2));
-        if (left > 3) sums[i + 3] = hn::GetLane(hn::SumOfLanes(kI32, s3));
-    }
 }
 
 int copyNearLanes(const FillArrays& from, const uint32_t* fromRows, const int* begins, const int* ends, int runs,
@@ -118,14 +84,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace thaw {
 
-HWY_EXPORT(sumAroundLanes);
 HWY_EXPORT(copyNearLanes);
 HWY_EXPORT(weighLanes);
-
-void sumAround(const FillArrays& from, const int* begins, const int* ends, int runs, const int* which, int count,
-               int* sums) {
-    HWY_DYNAMIC_DISPATCH(sumAroundLanes)(from, begins, ends, runs, which, count, sums);
-}
 
 int copyNear(const FillArrays& from, const uint32_t* fromRows, const int* begins, const int* ends, int runs,
              const FillBox& box, float sharper, float* to, int stride, uint32_t* rows) {

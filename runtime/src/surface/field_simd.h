@@ -11,16 +11,9 @@ struct FillArrays {
     const float *x, *y, *z, *inverse, *amplitude; // m; inverse: 1 / radius^2
 };
 
-constexpr float kFillUnit = 1.0f / 65536; // of sums that must not depend on their order
-
 struct FillBox {
     float center[3], half[3]; // m
 };
-
-// For each of the particles `which`: the sum of amplitude (1 - r^2 inverse)^3 over runs [begins, ends), each rounded to
-// kFillUnit.
-void sumAround(const FillArrays& from, const int* begins, const int* ends, int runs, const int* which, int count,
-               int* sums);
 
 // Copies the particles of runs that reach into the box, with inverse sharper in place of inverse, to arrays of `stride`
 // one after the other, x, y, z and inverse, and their rows, in their order; returns how many.
