@@ -216,3 +216,36 @@ TEST_CASE("the plan says how coarse the mesh is, and a budget in units chooses t
     CHECK(little.back() == 3);
     CHECK(little == chosen(0.2f));
 }
+
+namespace {
+
+// Mean height of a block's lower face, in spacings, when it hangs so many above the floor.
+float lowerFace(float gap) {
+    WorldFixture f;
+    f.def.gravity = {0, 0, 0};
+    f.create();
+    f.addMaterial();
+    f.addFloor();
+    const float spacing = f.def.particleSpacing, side = 8 * spacing;
+    f.addBox({-side, gap * spacing, -side}, {side, gap * spacing + side, side}, 300);
+    thawSurfaceDef def;
+    thawInitSurfaceDef(&def);
+    thawSurfaceView view;
+    REQUIRE(thawWorld_ExtractSurface(f.world, &def, &view) == thawResult_ok);
+    double sum = 0;
+    int count = 0;
+    for (int i = 0; i < view.vertexCount; ++i) {
+        const float* x = view.positions + 3 * i;
+        if (!(view.normals[3 * i + 1] < -0.9f) || std::max(std::abs(x[0]), std::abs(x[2])) > 0.7f * side) continue;
+        sum += x[1] / spacing, ++count;
+    }
+    REQUIRE(count > 100);
+    return float(sum / count);
+}
+
+} // namespace
+
+TEST_CASE("the mesh reaches a wall that there is no room before") {
+    for (float gap : {0.0f, 0.1f, 0.2f}) CHECK(std::abs(lowerFace(gap)) < 0.09f);
+    CHECK(lowerFace(0.6f) == doctest::Approx(0.6).epsilon(0.1)); // for it is not there yet
+}

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
+#include "base/kernel.h"
 #include "world/world.h"
+
+#include <algorithm>
 
 namespace thaw {
 namespace {
@@ -48,6 +51,46 @@ SurfaceInput World::surfaceInput() {
     return rows.input(def.particleSpacing);
 }
 
+// To the density a wall is filled up to its face (motion/walls.h), so no liquid lacks what is between it and its first
+// layer, wherever that stands: drawn together by cohesion at 0.6 to 0.65 spacings, not at half of one. The mesh knows
+// of no walls. So what stands off by too little for another layer is shown at half a spacing, and what is beyond so far
+// off that nothing jumps. A film of two layers of butter has
+// 4 % more of its volume with this.
+void World::meetWalls(SurfaceInput& input) {
+    constexpr float kFirst = 0.5f, kSecond = 0.75f, kFar = 1; // spacings off the wall
+    constexpr int kRows = 128;
+    if (std::none_of(colliders.begin(), colliders.end(), [](const Collider& c) { return c.alive; })) return;
+    Array<Vec4>& shown = surface_.rows.positions;
+    if (input.positions != shown.data()) {
+        shown.resizeRaw(static_cast<size_t>(input.count));
+        std::copy_n(input.positions, input.count, shown.data());
+    }
+    tasks.forBlocks(input.count, kRows, [&](int begin, int end, int, int) {
+        Box around;
+        float reach = 0;
+        for (int i = begin; i < end; ++i) {
+            const Vec4& x = shown[static_cast<size_t>(i)];
+            around.grow(x.xyz()), reach = std::max(reach, kFar * x.w / kSupport);
+        }
+        WallFinder walls;
+        walls.gather(colliders.data(), nullptr, static_cast<int>(colliders.size()), around, reach);
+        if (walls.empty()) return;
+        for (int i = begin; i < end; ++i) {
+            Vec4& x = shown[static_cast<size_t>(i)];
+            const float spacing = x.w / kSupport;
+            Vec3 nearer;
+            walls.forNear(x.xyz(), kFar * spacing, [&](float distance, Vec3 normal, const Collider&) {
+                const float off = distance / spacing;
+                if (!(off > kFirst && off < kFar)) return;
+                const float to = kFirst + std::max(off - kSecond, 0.0f) * ((kFar - kFirst) / (kFar - kSecond));
+                nearer += ((to - off) * spacing) * normal;
+            });
+            x.setXyz(x.xyz() + nearer);
+        }
+    });
+    input.positions = shown.data();
+}
+
 SurfaceMaker::Wanted World::surfaceWanted(const thawSurfaceDef& d) const {
     return {def.particleSpacing, d.cellSize * SurfaceLevel::cells(plan.work.surfaceLevel), d.smoothing};
 }
@@ -62,13 +105,17 @@ void World::learnSurface(int level) {
 }
 
 void World::extractSurface(const thawSurfaceDef& d, thawSurfaceView& out) {
-    const SurfaceMesh& mesh = surface_.extract(surfaceInput(), surfaceWanted(d), tasks);
+    SurfaceInput input = surfaceInput();
+    meetWalls(input);
+    const SurfaceMesh& mesh = surface_.extract(input, surfaceWanted(d), tasks);
     learnSurface(plan.work.surfaceLevel);
     show(mesh, plan.work.surfaceLevel, out);
 }
 
 void World::startSurface(const thawSurfaceDef& d) {
-    if (const SurfaceInput now = surfaceInput(); !anyCoarse_) surface_.rows.copy(now);
+    SurfaceInput input = surfaceInput();
+    if (!anyCoarse_) surface_.rows.copy(input), input = surface_.rows.input(def.particleSpacing);
+    meetWalls(input);
     surface_.begin(surfaceWanted(d));
     startedLevel_ = plan.work.surfaceLevel;
 }

@@ -149,6 +149,7 @@ private:
     Vec3 refer(size_t slot, const std::vector<Vec3>& points, const Groups& groups, float volume, bool bends);
     void forget(size_t slot);
     SurfaceInput surfaceInput();
+    void meetWalls(SurfaceInput& input);
     SurfaceMaker::Wanted surfaceWanted(const thawSurfaceDef& d) const;
     void learnSurface(int level);
     int chooseSurfaceLevel(SurfaceLevel& learnt, SurfaceLevel& units, const thawBudget& b) const;
