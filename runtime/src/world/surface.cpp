@@ -54,8 +54,8 @@ SurfaceInput World::surfaceInput() {
 // To the density a wall is filled up to its face (motion/walls.h), so no liquid lacks what is between it and its first
 // layer, wherever that stands: drawn together by cohesion at 0.6 to 0.65 spacings, not at half of one. The mesh knows
 // of no walls. So what stands off by too little for another layer is shown at half a spacing, and what is beyond so far
-// off that nothing jumps. A film of two layers of butter has
-// 4 % more of its volume with this.
+// off that nothing jumps. The film of butter in its pan lacks 8.1 % of its volume with this, 9.9 % without
+// (`thaw validate surface scenes`).
 void World::meetWalls(SurfaceInput& input) {
     constexpr float kFirst = 0.5f, kSecond = 0.75f, kFar = 1; // spacings off the wall
     constexpr int kRows = 128;
