@@ -148,8 +148,7 @@ void addCapture(CLI::App& app, int& exitCode) {
     CLI::Option* at =
         command->add_option("--at", o->at, "Times of the game, s, with commas between (default: what the scene says)");
     command->add_option("--size", o->size, "Pixels of a picture")->capture_default_str();
-    command->add_option("--view", o->view, pictureViews() + "; with commas between, several")
-        ->capture_default_str();
+    command->add_option("--view", o->view, pictureViews() + "; with commas between, several")->capture_default_str();
     command->add_option("--out", o->out, "Folder for the pictures; made when it is not there");
     command->add_option("--work", o->work, "Work of a step: sub-steps,pressure,viscosity iterations[,least sub-steps]")
         ->capture_default_str();

@@ -67,7 +67,8 @@ TriMesh makeScoops();
 TriMesh makeStar();
 // A bunny of chocolate, sitting upright and looking along +x: 0.15 m high with its ears, flat below, its foot on y = 0.
 TriMesh makeBunny();
-// A frying pan to look at: 0.27 m across its rim, its inside on y = 0, its handle along +x; the handle runs into the rim.
+// A frying pan to look at: 0.27 m across its rim, its inside on y = 0, its handle along +x; the handle runs into the
+// rim.
 TriMesh makePan();
 
 // Reads OBJ, PLY, STL, glTF or GLB: all meshes of the file joined, node transforms applied, equal vertices welded.

@@ -92,21 +92,9 @@ std::vector<view::Region> regionsOf(const scene::Scene& scene, const scene::Scen
     }
     for (size_t i = 0; i < scene.shapes.size(); ++i) {
         const scene::FillShape& shape = scene.shapes[i];
-        thawShapeDef def = shape.def;
-        std::vector<thawVec3> points;
-        std::vector<int32_t> sizes;
-        for (const auto& contour : shape.contours) {
-            points.insert(points.end(), contour.begin(), contour.end());
-            sizes.push_back(int32_t(contour.size()));
-        }
-        def.points = points.data(), def.contourSizes = sizes.data(), def.contourCount = int32_t(sizes.size());
-        if (sizes.empty()) {
-            def.mesh = meshes.shapes[i].view();
-            def.position = shape.placement.position, def.rotation = shape.placement.rotation;
-            def.scale = shape.placement.scale;
-        }
+        const scene::FillShapeDef made(shape, meshes.shapes[i]);
         const scene::Placement at = place(shape.collider);
-        if (def.enabled) add(view::shapeRegions(def, at.position, at.rotation));
+        if (made.def.enabled) add(view::shapeRegions(made.def, at.position, at.rotation));
     }
     return out;
 }

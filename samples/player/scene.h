@@ -233,6 +233,19 @@ struct SceneWorld {
 
 thawHeatSourceDef sourceDef(const HeatSource& source);
 
+// The definition of a shape, with the memory that it points to; mesh: its triangles, where it has no contours, which
+// must stay as long. Collider is not set.
+struct FillShapeDef {
+    FillShapeDef(const FillShape& shape, const TriMesh& mesh);
+    FillShapeDef(const FillShapeDef&) = delete;
+    FillShapeDef& operator=(const FillShapeDef&) = delete;
+    thawShapeDef def;
+
+private:
+    std::vector<thawVec3> points_;
+    std::vector<int32_t> sizes_;
+};
+
 // Throws InputError when the scene asks for what cannot be, std::runtime_error when memory is short.
 // threads: range 1..64.
 SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads);

@@ -143,6 +143,18 @@ thawHeatSourceDef sourceDef(const HeatSource& h) {
     return d;
 }
 
+FillShapeDef::FillShapeDef(const FillShape& shape, const TriMesh& mesh) : def(shape.def) {
+    for (const std::vector<thawVec3>& contour : shape.contours) {
+        points_.insert(points_.end(), contour.begin(), contour.end());
+        sizes_.push_back(int32_t(contour.size()));
+    }
+    def.points = points_.data(), def.contourSizes = sizes_.data(), def.contourCount = int32_t(sizes_.size());
+    if (!sizes_.empty()) return;
+    def.mesh = mesh.view();
+    def.position = shape.placement.position, def.rotation = shape.placement.rotation;
+    def.scale = shape.placement.scale;
+}
+
 SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads) {
     SceneWorld out;
     thawWorldDef def;
@@ -269,19 +281,8 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
     }
     for (size_t i = 0; i < scene.shapes.size(); ++i) {
         const FillShape& shape = scene.shapes[i];
-        thawShapeDef d = shape.def;
-        std::vector<thawVec3> points;
-        std::vector<int32_t> sizes;
-        for (const std::vector<thawVec3>& contour : shape.contours) {
-            points.insert(points.end(), contour.begin(), contour.end());
-            sizes.push_back(int32_t(contour.size()));
-        }
-        d.points = points.data(), d.contourSizes = sizes.data(), d.contourCount = int32_t(sizes.size());
-        if (sizes.empty()) {
-            d.mesh = meshes.shapes[i].view();
-            d.position = shape.placement.position, d.rotation = shape.placement.rotation;
-            d.scale = shape.placement.scale;
-        }
+        FillShapeDef fill(shape, meshes.shapes[i]);
+        thawShapeDef& d = fill.def;
         if (shape.collider >= 0) d.collider = out.colliders[size_t(shape.collider)];
         thawShapeId id{};
         const thawResult result = thawCreateShape(raw, &d, &id);

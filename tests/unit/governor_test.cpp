@@ -197,7 +197,8 @@ TEST_CASE("governor: coarser particles when nothing else is left, finer ones whe
 
 TEST_CASE("governor: stays between the least and the most of the host, which goes before it") {
     Governor g = learning();
-    const thawWork most{2, 5, 7, 2, 0.5f, 1, 10, 16, 0, 3, 2048, 0, 0}, least{2, 4, 6, 3, 0.3f, 1, 9, 8, 3, 3, 2048, 0, 0};
+    const thawWork most{2, 5, 7, 2, 0.5f, 1, 10, 16, 0, 3, 2048, 0, 0},
+        least{2, 4, 6, 3, 0.3f, 1, 9, 8, 3, 3, 2048, 0, 0};
     thawWork w = g.choose(busy(), 1e9f, least, most, 8, 2).work;
     CHECK(w.subSteps == 2);
     CHECK(w.pressureIterations == 5);

@@ -619,10 +619,10 @@ typedef enum thawBudgetMode {
 
 typedef struct thawBudget {
     uint32_t structSize, cookie;
-    thawBudgetMode mode; /* default thawBudget_work */
-    float milliseconds;  /* range 0..1e9, default 4; 0: the least work there is */
+    thawBudgetMode mode;       /* default thawBudget_work */
+    float milliseconds;        /* range 0..1e9, default 4; 0: the least work there is */
     float surfaceMilliseconds; /* that making the mesh may take where the governor chooses: it chooses surfaceLevel by
-                                  what the last meshes took, or by fixed prices with units; range 0..1e9, default 0: any */
+                                  what the last meshes took, or fixed prices with units; range 0..1e9, default 0: any */
     float units;    /* range 0..1e12, default 4000; 1000 are about what a quiet machine with two cores does in 1 ms */
     thawWork work;  /* of thawBudget_work. Default: 4 sub-steps at most, 8 pressure, 12 viscosity, heat every step, all
                        rays, 80 sub-cycles of conduction, 16 rays a source */
@@ -682,9 +682,9 @@ THAW_API void thawWorld_GetParticles(const thawWorld* world, thawParticleView* o
  * nothing that a step depends on. The array belongs to the world, until the next call of this or a step. */
 THAW_API thawResult thawWorld_GetFeatureSizes(thawWorld* world, const float** out);
 
-/* Particles as ellipsoids of revolution, for hosts that draw splats or a surface in screen space: balls inside and where
- * one is alone, flat where there is a surface, and there moved along it so that beads at outlines go (after Yu & Turk
- * 2013). In the order of thawParticleView. */
+/* Particles as ellipsoids of revolution, for hosts that draw splats or a surface in screen space: balls inside and
+ * where one is alone, flat where there is a surface, and there moved along it so that beads at outlines go (after Yu &
+ * Turk 2013). In the order of thawParticleView. */
 typedef struct thawSplatView {
     int32_t count;
     const float* centers; /* x y z a: m; a is the half axis along the surface */
@@ -750,10 +750,10 @@ typedef struct thawSurfaceBuffers {
     void* vertices;         /* aligned to 4; a mapped vertex buffer, say: written vertex by vertex, never read */
     int32_t vertexCapacity; /* vertices that there is room for */
     int32_t vertexStride;   /* bytes from one to the next, a multiple of 4; range 4..4096, default 32 */
-    int32_t positionOffset, normalOffset;             /* three floats; default 0 and 12 */
-    int32_t temperatureOffset, liquidFractionOffset;  /* a float; default 24 and 28 */
+    int32_t positionOffset, normalOffset;              /* three floats; default 0 and 12 */
+    int32_t temperatureOffset, liquidFractionOffset;   /* a float; default 24 and 28 */
     int32_t materialOffset, bodyOffset, mixtureOffset; /* 1, 2 and 8 bytes as in thawSurfaceView; default -1 */
-    void* indices; /* aligned to indexSize */
+    void* indices;                                     /* aligned to indexSize */
     int32_t indexCapacity;
     int32_t indexSize; /* bytes, 2 or 4; default 4. Two number 65,536 vertices */
 } thawSurfaceBuffers;

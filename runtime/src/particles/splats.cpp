@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "particles/splats.h"
 
+#include "base/kernel.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace thaw {
 namespace {
 
-constexpr float kSupport = 2.2f; // h / spacing
 // Half axes in spacings. A ball of the volume of a particle has 0.62; in something flat it reaches half a spacing out
 // of its layer and over the gaps to its neighbours.
 constexpr float kRound = 0.62f, kFlat = 0.52f, kAlong = 1.0f;

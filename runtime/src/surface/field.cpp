@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "surface/field.h"
 
+#include "base/kernel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 namespace thaw {
 namespace {
-
-constexpr float kSupport = 2.2f; // h / spacing of the input
 
 // Kernel radius in spacings. On a lattice this one puts the face at 0.498..0.506 spacings above the centres, wherever
 // on the face one looks; 1.6 gives 0.488..0.545 (the lattice shows), 2.0 gives 0.488..0.505 and swallows more detail.
