@@ -3,7 +3,7 @@
 #pragma once
 
 #include "args.h"
-#include "scene.h"
+#include "scene_stage.h"
 #include "view/image.h"
 
 #include <memory>
@@ -11,33 +11,11 @@
 
 namespace thaw::player {
 
-enum class PictureView {
-    shaded,
-    temperature, // of the surface
-    phase,
-    liquid,  // liquid fraction of the surface
-    control, // shaded, with paths and shapes over it
-    splats,  // shaded, the melt from its particles in screen space
-    // Particles, as balls of their spacing:
-    particles, // by temperature
-    level,
-    elfs, // extended local feature size
-    velocity,
-    exposure,    // area exposed to air
-    absorptivity // of radiation, painted or the material's
-};
-struct NamedView {
-    const char* name;
-    PictureView view;
-};
-inline constexpr NamedView kNamedViews[] = {
-    {"shaded", PictureView::shaded},       {"temperature", PictureView::temperature},
-    {"phase", PictureView::phase},         {"liquid", PictureView::liquid},
-    {"control", PictureView::control},     {"splats", PictureView::splats},
-    {"particles", PictureView::particles}, {"level", PictureView::level},
-    {"elfs", PictureView::elfs},           {"velocity", PictureView::velocity},
-    {"exposure", PictureView::exposure},   {"absorptivity", PictureView::absorptivity}};
-// Their names in words: "shaded, ... or absorptivity".
+using scene::kNamedViews;
+using scene::NamedView;
+using scene::PictureView;
+
+// The names of kNamedViews in words: "shaded, ... or absorptivity".
 std::string pictureViews();
 // Throws InputError.
 PictureView parseView(const std::string& name, const std::string& text);

@@ -1,36 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
-#include "pictures_particles.h"
+#include "scene_stage.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace thaw::player {
+namespace thaw::scene {
 
-bool isOfParticles(PictureView view) {
-    switch (view) {
-    case PictureView::particles:
-    case PictureView::level:
-    case PictureView::elfs:
-    case PictureView::velocity:
-    case PictureView::exposure:
-    case PictureView::absorptivity:
-        return true;
-    default:
-        return false;
-    }
+ParticleBalls::ParticleBalls(const Scene& scene, bool cut) : spacing_(scene.world.particleSpacing), cut_(cut) {
+    for (const Material& material : scene.materials) absorptivity_.push_back(material.def.absorptivity);
 }
 
-ParticleBalls::ParticleBalls(const scene::Scene& scene, bool cut) : spacing_(scene.world.particleSpacing), cut_(cut) {
-    for (const scene::Material& material : scene.materials) absorptivity_.push_back(material.def.absorptivity);
-}
-
-void ParticleBalls::show(thawWorld* world, PictureView mode, const view::Camera& camera, view::Scene& scene) {
-    const float* sizes = nullptr;
-    if (mode == PictureView::elfs && thawWorld_GetFeatureSizes(world, &sizes) != thawResult_ok)
-        throw RunError(std::string("no feature sizes: ") + thawWorld_GetLastError(world));
-    thawParticleView all;
-    thawWorld_GetParticles(world, &all);
+void ParticleBalls::show(const thawParticleView& all, const float* sizes, PictureView mode, const view::Camera& camera,
+                         view::Scene& scene) {
     if (middle_.empty()) {
         middle_.assign(3, 0);
         for (int i = 0; i < all.count; ++i)
@@ -92,4 +74,4 @@ void ParticleBalls::show(thawWorld* world, PictureView mode, const view::Camera&
     }
 }
 
-} // namespace thaw::player
+} // namespace thaw::scene
