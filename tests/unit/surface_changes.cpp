@@ -103,6 +103,97 @@ TEST_CASE("surface: a particle beside a vertex that takes nothing from its block
     CHECK(sameBits(kept.surface, fresh(wax, kCell, 0)));
 }
 
+TEST_CASE(
+    "surface: the particle nearest to a vertex outside of all kernels does not depend on what was meshed before") {
+    Wax wax;
+    constexpr float kCell = 1.5f;
+    const float cell = kCell * wax.spacing;
+    // A crowd whose surface is clear of its kernels, one that is nearer to it but reaches less far than from there, and
+    // a large one that comes and goes.
+    for (int k = 0; k < 200; ++k) wax.add(cell * Vec3{2.01f, 4.01f, 4.01f}, wax.spacing, 300);
+    wax.add(cell * Vec3{5.4f, 4.01f, 4.01f}, wax.spacing, 900);
+    wax.add(cell * Vec3{60, 4, 4}, 1.6f * wax.spacing, 300);
+    Mesher kept, fresh;
+    kept(wax, kCell, 0);
+    take(wax, 201);
+    kept(wax, kCell, 0);
+    CHECK(sameBits(kept.surface, fresh(wax, kCell, 0)));
+    const Array<float>& t = fresh.surface.temperatures;
+    const Array<Vec3>& p = fresh.surface.positions;
+    size_t nearest = 0;
+    for (size_t v = 0; v < p.size(); ++v)
+        if (length(p[v] - cell * Vec3{3.98f, 4, 4}) < length(p[nearest] - cell * Vec3{3.98f, 4, 4})) nearest = v;
+    CHECK(length(p[nearest] - cell * Vec3{3.98f, 4, 4}) < 0.2f * cell);
+    CHECK(t[nearest] == doctest::Approx(900));
+}
+
+TEST_CASE("surface: a particle is known in whatever row it stands") {
+    Dice dice;
+    Wax wax = slab(dice);
+    for (int k = 0; k < 3; ++k) wax.add(wax.positions[900 + 7 * size_t(k)].xyz(), wax.spacing, 400 + 50 * float(k), 1);
+    Mesher kept(2);
+    kept(wax);
+    const int64_t all = kept.surface.meshedBlocks();
+    int64_t blocks = all;
+    for (int round = 0; round < 24; ++round) {
+        const int what = round % 4;
+        const auto turn = [&](size_t begin, size_t middle, size_t end) {
+            const auto one = [&](auto& a) {
+                const auto at = [&](size_t k) { return a.begin() + std::ptrdiff_t(k); };
+                std::rotate(at(begin), at(middle), at(end));
+            };
+            one(wax.positions), one(wax.temperatures), one(wax.liquidFractions), one(wax.materials), one(wax.bodies);
+        };
+        const size_t count = wax.positions.size(), some = size_t(dice.roll() * 0.9f * float(count));
+        if (what == 0) turn(0, some, some + 1);            // one melts: it comes first, and the others one farther
+        if (what == 1) turn(some, some + 300, some + 900); // cells of the sort shift
+        if (what == 2) turn(0, count / 2, count);          // all
+        if (what == 3)                                     // neighbours
+            for (int k = 0; k < 200; ++k)
+                turn(some + 2 * size_t(k), some + 2 * size_t(k) + 1, some + 2 * size_t(k) + 2);
+        if (round % 3 == 1) wax.positions[some].y += 0.0003f;
+        if (round % 5 == 3) wax.materials[some] ^= 1;
+        if (round % 6 == 5) take(wax, some);
+        for (float& t : wax.temperatures) t += 0.01f;
+        kept(wax);
+        Mesher fresh;
+        CAPTURE(round);
+        REQUIRE(sameBits(kept.surface, fresh(wax)));
+        if (what == 0) CHECK(kept.surface.meshedBlocks() - blocks < all / 4);
+        if (what == 1) CHECK(kept.surface.meshedBlocks() - blocks < all / 2);
+        blocks = kept.surface.meshedBlocks();
+    }
+}
+
+TEST_CASE("surface: more particles in one place than a sum of fill has room for are no hole") {
+    Wax few, many;
+    Dice dice;
+    for (int k = 0; k < 45000; ++k) {
+        const Vec3 at = 0.01f * many.spacing * dice.direction();
+        many.add(at);
+        if (k < 25000) few.add(at);
+    }
+    Mesher mesher;
+    const MeshFacts facts = factsOf(mesher(few));
+    CHECK(facts.badEdges == 0);
+    CHECK(facts.components == 1);
+    for (int round = 0; round < 2; ++round) {
+        mesher(many);
+        const MeshFacts crowded = factsOf(mesher.surface);
+        CHECK(crowded.badEdges == 0);
+        CHECK(crowded.components == 1);
+        CHECK(crowded.volume > facts.volume);
+        CHECK(crowded.volume < 1.2 * facts.volume);
+        // Some leave: sums fit again, or not yet.
+        for (size_t left : {40000u, 25000u}) {
+            Wax less = many;
+            while (less.positions.size() > left) take(less, less.positions.size() - 1);
+            Mesher fresh;
+            CHECK(sameBits(mesher(less), fresh(less)));
+        }
+    }
+}
+
 TEST_CASE("surface: what changes for long takes no more memory") {
     Dice dice;
     Wax wax = slab(dice);

@@ -99,7 +99,7 @@ void depositLanes(const FillArrays& from, const int* which, const float* amplitu
         const float x = homeOf(from.x[k], block.perCell, block.first[0]),
                     y = homeOf(from.y[k], block.perCell, block.first[1]),
                     z = homeOf(from.z[k], block.perCell, block.first[2]);
-        const F32 amplitude = all(amplitudes[n] * (1 / kDepositUnit));
+        const F32 amplitude = all(amplitudes[n] * block.perUnit);
         if (nodes == 5)
             depositOne<5>(x, y, z, radius, inverse, amplitude, nodes, tile);
         else
@@ -173,7 +173,7 @@ void depositAcrossLanes(const FillArrays& from, int first, const float* amplitud
         const float inverse = from.inverse[k] * cellSquared;
         alignas(32) float alongX[kSide], alongY[kSide], alongZ[kSide];
         along(-x, inverse, 1, alongX), along(-y, inverse, 1, alongY), along(-z, inverse, 1, alongZ);
-        const F32 amplitude = all(amplitudes[n] * (1 / kDepositUnit));
+        const F32 amplitude = all(amplitudes[n] * block.perUnit);
         for (int nz = 0; nz < kSide; ++nz)
             for (int ny = 0; ny < kSide; ++ny)
                 for (int part = 0; part < kSide; part += kLanes)

@@ -10,14 +10,16 @@ namespace thaw {
 
 // Fill at nodes is a sum of whole numbers: it does not depend on the order of particles, so that one that moves can be
 // taken away and brought again, and threads may take them as they come. The unit leaves the surface of a full lattice
-// within 1e-5 spacings of a float's and overflows with 30,000 particles in one place.
+// within 1e-5 spacings of a float's; where so many particles are in one place that sums might not fit, it is wider
+// (SurfaceField::unitFor).
 constexpr float kDepositUnit = 1.0f / (1 << 18);
 
 constexpr float kFillUnit = 1.0f / 65536; // of fill at particles
 
-// Where a block of 8^3 nodes is, and how wide its cells are.
+// Where a block of 8^3 nodes is, how wide its cells are, and what it counts in.
 struct FillBlock {
     double first[3], perCell; // of the first node, in cells; 1 / m
+    float perUnit;            // units in a fill of 1
 };
 
 // A block and what its particles reach beyond it, so many nodes on each side along y and z and a whole block along x.

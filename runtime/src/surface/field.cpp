@@ -21,9 +21,12 @@ constexpr double kCoarsen = 1.26; // halves the volume of blocks
 constexpr int kPad = 8;           // lanes that may be read past the particles
 constexpr float kPi = 3.14159265f;
 
-// Largest coordinate. Of what is not negative the bits are in the order of the numbers; whole numbers are compared in
-// vectors.
-float farthestOf(const Vec4* positions, int count) {
+struct Extremes {
+    float farthest, support; // m: largest coordinate and support
+};
+
+// Of what is not negative the bits are in the order of the numbers; whole numbers are compared in vectors.
+Extremes extremesOf(const Vec4* positions, int count) {
     int32_t most[4] = {};
     for (int i = 0; i < count; ++i) {
         int32_t bits[4];
@@ -33,51 +36,50 @@ float farthestOf(const Vec4* positions, int count) {
             most[a] = bits[a] > most[a] ? bits[a] : most[a];
         }
     }
-    float farthest;
-    const int32_t all = std::max({most[0], most[1], most[2]});
-    std::memcpy(&farthest, &all, sizeof farthest);
-    return farthest;
+    Extremes found;
+    const int32_t all[2] = {std::max({most[0], most[1], most[2]}), most[3]};
+    std::memcpy(&found, all, sizeof found);
+    return found;
 }
 
 } // namespace
 
 SurfaceField::SurfaceField(Allocator& allocator)
     : positions_(allocator), materials_(allocator), bodies_(allocator), rows_(allocator), freshRows_(allocator),
-      large_(allocator), blocks_(allocator), freeSlots_(allocator), order_(allocator), changedSlots_(allocator),
-      needed_(allocator), tableKeys_(allocator), tableSlots_(allocator), base_(allocator), lift_(allocator),
-      full_(allocator), inside_(allocator), homes_(allocator), lines_(allocator), tiles_(allocator),
+      goneRows_(allocator), moves_(allocator), rowsNow_(allocator), movedRows_(allocator), matches_(allocator),
+      lastPlaces_(allocator), large_(allocator), blocks_(allocator), freeSlots_(allocator), order_(allocator),
+      changedSlots_(allocator), needed_(allocator), tableKeys_(allocator), tableSlots_(allocator), base_(allocator),
+      lift_(allocator), full_(allocator), inside_(allocator), homes_(allocator), lines_(allocator), tiles_(allocator),
       excessOfLarge_(allocator), binStarts_(allocator), sortedRows_(allocator), sorted_(allocator) {}
 
 void SurfaceField::clear() {
     valid_ = false;
-    positions_.clear(), materials_.clear(), bodies_.clear(), rows_.clear(), large_.clear();
+    positions_.clear(), materials_.clear(), bodies_.clear(), rows_.clear(), moves_.clear(), large_.clear();
     blocks_.clear(), freeSlots_.clear(), order_.clear();
     base_.clear(), lift_.clear();
     clearTable();
 }
 
 SurfaceField::Change SurfaceField::update(const SurfaceInput& input, float wantedCell, Tasks& tasks) {
-    const int count = std::max(input.count, 0), before = int(positions_.size()), common = std::min(count, before);
+    const int count = std::max(input.count, 0);
     const bool comparable = valid_ && asked_ == wantedCell && spacing_ == input.spacing;
-    freshRows_.clear();
     if (comparable) {
-        findFresh(input, common);
-        if (freshRows_.empty() && count == before) return Change::nothing;
+        findFresh(input, count);
+        if (freshRows_.empty() && goneRows_.empty() && moves_.empty()) return Change::nothing;
     }
 
-    const float farthest = farthestOf(input.positions, count);
+    const auto [farthest, mostSupport] = extremesOf(input.positions, count);
     // Positions carry 24 bits: a finer cell has nothing to show, and keys would not hold its blocks.
     const double wanted = std::max(double(wantedCell), std::ldexp(double(farthest), -(kAxisBits + 1)));
 
     // What most has changed of is cheaper to make anew.
     bool patch = comparable && wanted == cell_ && large_.empty() && count > 0 &&
-                 2 * (int(freshRows_.size()) + std::abs(count - before)) < count;
+                 2 * int(std::max(freshRows_.size(), goneRows_.size())) < count;
     valid_ = false;
     if (patch) {
         for (Block& b : blocks_) b.changed = false;
-        takeAway(count, tasks);
-        for (int i = before; i < count; ++i) freshRows_.push(i);
-        rows_.resizeRaw(count);
+        takeAway(tasks);
+        moveRows(count);
         patch = placeRows(input, freshRows_.begin(), freshRows_.end()) && linkBlocks(input);
     }
     if (patch) {
@@ -88,6 +90,11 @@ SurfaceField::Change SurfaceField::update(const SurfaceInput& input, float wante
     }
     asked_ = wantedCell, spacing_ = input.spacing;
     sortRows(input);
+    if (const float unit = unitFor(mostSupport); unit != unit_) {
+        if (patch) rebuild(input), sortRows(input);
+        unit_ = unit, patch = false;
+    }
+    if (patch && rowsMoved()) markOvertaken();
     bring(tasks);
     forChanged(tasks, [&](int slot) { markFull(slot); });
     forChanged(tasks, [&](int slot) { countCompany(slot, input); });
@@ -105,30 +112,13 @@ SurfaceField::Change SurfaceField::update(const SurfaceInput& input, float wante
     return patch ? Change::blocks : Change::everything;
 }
 
-// Rows of the first `common` that are not what they were the last time.
-void SurfaceField::findFresh(const SurfaceInput& input, int common) {
-    constexpr int kTogether = 32; // most are what they were
-    const auto same = [&](int begin, int count) {
-        const size_t n = size_t(count);
-        return std::memcmp(&positions_[begin], &input.positions[begin], n * sizeof(Vec4)) == 0 &&
-               std::memcmp(&materials_[begin], &input.materials[begin], n) == 0 &&
-               std::memcmp(&bodies_[begin], &input.bodies[begin], n * sizeof(uint16_t)) == 0;
-    };
-    for (int begin = 0; begin < common; begin += kTogether) {
-        const int end = std::min(begin + kTogether, common);
-        if (same(begin, end - begin)) continue;
-        for (int i = begin; i < end; ++i)
-            if (!same(i, 1)) freshRows_.push(i);
-    }
-}
-
 // Everything from the start with the cell as it is; false when that takes too many blocks.
 bool SurfaceField::rebuild(const SurfaceInput& input) {
     clear();
     const int count = std::max(input.count, 0);
     rows_.resizeRaw(count), freshRows_.resizeRaw(count);
     for (int i = 0; i < count; ++i) freshRows_[i] = i;
-    reach_ = 0;
+    reach_ = 0, unit_ = kDepositUnit;
     return placeRows(input, freshRows_.begin(), freshRows_.end()) && linkBlocks(input);
 }
 
@@ -137,22 +127,20 @@ bool SurfaceField::placeRows(const SurfaceInput& input, const int32_t* begin, co
     const double perBlock = 1 / (cell_ * kSide);
     const bool foreseen = order_.empty();
     // Of particles one after the other most are of one size, and in one block or next door.
-    float support = -1, inverse = 0, amplitude = 0, reach = 0;
+    float support = -1;
+    Kernel kernel{};
     for (const int32_t* i = begin; i != end; ++i) {
         const Vec4& p = input.positions[*i];
         if (p.w != support) {
             support = p.w;
-            const float spacing = p.w / kSupport, radius = std::max(kReach * spacing, kReachCells * float(cell_));
-            const float ratio = spacing / radius;
-            inverse = 1 / (radius * radius), amplitude = 315 / (64 * kPi) * ratio * ratio * ratio;
-            reach = float(double(radius) / cell_ * 1.0001); // the margin covers rounding
-            if (reach <= kSide) reach_ = std::max(reach_, reach);
+            kernel = kernelOf(p.w);
+            if (kernel.reach <= kSide) reach_ = std::max(reach_, kernel.reach);
         }
         Row& row = rows_[*i];
         row = {};
-        row.inverse = inverse, row.amplitude = amplitude;
+        row.inverse = kernel.inverse, row.amplitude = kernel.amplitude;
         row.company = -1, row.fresh = true;
-        if (reach > kSide) {
+        if (kernel.reach > kSide) {
             if (!foreseen) return false;
             row.home = -1;
             large_.push(*i);
@@ -166,7 +154,7 @@ bool SurfaceField::placeRows(const SurfaceInput& input, const int32_t* begin, co
             block[a] -= double(block[a]) > at[a];
             const float local = float((at[a] - double(block[a])) * kSide);
             bin[a] = std::min(int(local * (float(kBins) / kSide)), kBins - 1);
-            row.reach |= uint8_t((local - reach <= 0) << 2 * a | (local + reach >= kSide) << (2 * a + 1));
+            row.reach |= uint8_t((local - kernel.reach <= 0) << 2 * a | (local + kernel.reach >= kSide) << (2 * a + 1));
         }
         row.bin = uint8_t((bin[2] * kBins + bin[1]) * kBins + bin[0]);
         const bool isLast = lastSlot_ >= 0 && blocks_[lastSlot_].x == block[0] && blocks_[lastSlot_].y == block[1] &&
@@ -177,22 +165,50 @@ bool SurfaceField::placeRows(const SurfaceInput& input, const int32_t* begin, co
     return true;
 }
 
+SurfaceField::Kernel SurfaceField::kernelOf(float support) const {
+    const float spacing = support / kSupport, radius = std::max(kReach * spacing, kReachCells * float(cell_));
+    const float ratio = spacing / radius;
+    return {1 / (radius * radius), 315 / (64 * kPi) * ratio * ratio * ratio,
+            float(double(radius) / cell_ * 1.0001)}; // the margin covers rounding
+}
+
+// The finest that sums surely fit in: of all bins that a kernel can touch, each as full as the fullest. Half of the
+// numbers are left to what lifting adds, which crowded particles have none of.
+float SurfaceField::unitFor(float mostSupport) const {
+    constexpr double kMost = double(1 << 30);
+    const Kernel kernel = kernelOf(mostSupport);
+    const double across = std::floor(2.0 * kernel.reach * kBins / kSide) + 2;
+    const double fill =
+        kernel.amplitude * (large_.empty() ? across * across * across * mostInBin_ : double(rows_.size()));
+    float unit = kDepositUnit;
+    while (fill > kMost * double(unit)) unit *= 2;
+    return unit;
+}
+
 void SurfaceField::sortRows(const SurfaceInput& input) {
     const size_t count = rows_.size(), stride = count + kPad;
     binStarts_.assign(blocks_.size() * kBlockBins + 2, 0);
     for (const Row& row : rows_)
         if (row.home >= 0) ++binStarts_[size_t(row.home) * kBlockBins + row.bin + 2];
-    for (size_t b = 2; b < binStarts_.size(); ++b) binStarts_[b] += binStarts_[b - 1];
+    mostInBin_ = 0;
+    for (size_t b = 2; b < binStarts_.size(); ++b) {
+        mostInBin_ = std::max(mostInBin_, binStarts_[b]);
+        binStarts_[b] += binStarts_[b - 1];
+    }
+    const bool moved = rowsMoved();
+    if (moved) lastPlaces_.resizeRaw(count);
     sortedRows_.resizeRaw(stride);
     sorted_.resizeRaw(5 * stride);
     float *x = sorted_.data(), *y = x + stride, *z = y + stride, *inverse = z + stride, *amplitude = inverse + stride;
     arrays_ = {x, y, z, inverse, amplitude};
     for (size_t i = 0; i < count; ++i) {
-        const Row& row = rows_[i];
+        Row& row = rows_[i];
         // Large ones are in no bin; they stand at the end.
         const size_t bin = row.home >= 0 ? size_t(row.home) * kBlockBins + row.bin : blocks_.size() * kBlockBins;
         const int32_t to = binStarts_[bin + 1]++;
         sortedRows_[to] = uint32_t(i);
+        if (moved) lastPlaces_[to] = row.fresh ? -1 : row.place;
+        row.place = to;
         const Vec4& p = input.positions[i];
         x[to] = p.x, y[to] = p.y, z[to] = p.z, inverse[to] = row.inverse, amplitude[to] = row.amplitude;
     }

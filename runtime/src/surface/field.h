@@ -72,7 +72,7 @@ public:
     const Array<int32_t>& order() const { return order_; } // slots of the blocks, by place
     float value(int slot, int node) const {
         const size_t at = size_t(slot) * kNodes + size_t(node);
-        return float(base_[at] + lift_[at]) * kDepositUnit;
+        return float(base_[at] + lift_[at]) * unit_;
     }
     // Bits of a block's nodes and of those next door, 9 x 9 x 9: bit x of [z][y].
     struct NodeBits {
@@ -94,9 +94,14 @@ public:
     };
     void runsAround(int slot, const float lower[3], const float upper[3], Runs& out) const;
     FillBox boxOf(int slot, const float lower[3], const float upper[3]) const; // in m
+    // f(place in the arrays) for all particles of a block and of those around, and for the large ones.
+    template <class F> void forAround(int slot, F&& f) const;
     const FillArrays& arrays() const { return arrays_; }
     const uint32_t* rowsOfArrays() const { return sortedRows_.data(); }
     int rowCount() const { return int(rows_.size()); }
+    // Of a particle that is still there: its row now, by the row that it had before the last update.
+    bool rowsMoved() const { return !moves_.empty(); }
+    uint32_t rowNow(uint32_t before) const { return uint32_t(rowsNow_[before]); }
     int largeCount() const { return int(large_.size()); } // particles in no run; they end the arrays
 
 private:
@@ -112,9 +117,21 @@ private:
         uint8_t reach;     // bits x-, x+, y-, y+, z-, z+: sides of the block that it may reach over
         bool otherCompany; // than the last time
         bool fresh;        // its nodes do not have it yet, or are to lose it
+        int32_t place;     // in sortedRows_
+    };
+    struct Kernel {
+        float inverse, amplitude, reach; // 1 / R^2, V W(0), R in cells
+    };
+    struct Move {
+        int32_t from, to; // a particle's row the last time and now
     };
 
-    void findFresh(const SurfaceInput& input, int common);
+    void findFresh(const SurfaceInput& input, int count);
+    void findMoves(const SurfaceInput& input);
+    void moveRows(int count);
+    void markOvertaken();
+    Kernel kernelOf(float support) const;
+    float unitFor(float mostSupport) const;
     bool rebuild(const SurfaceInput& input);
     bool placeRows(const SurfaceInput& input, const int32_t* begin, const int32_t* end);
     int slotAt(int64_t x, int64_t y, int64_t z);
@@ -133,7 +150,7 @@ private:
     static void setFull(Row& row);
     void countCompanyOfLarge(const SurfaceInput& input);
     void setCompany(Row& row, int sum, Vec3 at, const SurfaceInput& input);
-    void takeAway(int count, Tasks& tasks);
+    void takeAway(Tasks& tasks);
     void bring(Tasks& tasks);
     void liftRows(bool patch, Tasks& tasks);
     template <class F> void depositStirred(Array<int32_t>& sums, Tasks& tasks, F&& amplitudesOf);
@@ -143,7 +160,9 @@ private:
     bool valid_ = false;
     double cell_ = 0;
     float asked_ = 0, spacing_ = 0; // the last time
-    float reach_ = 0;               // cells, farthest of those that are in bins
+    float reach_ = 0;               // cells, farthest of those that are in bins, ever
+    float unit_ = kDepositUnit;     // of base_ and lift_
+    int mostInBin_ = 0;
 
     // The particles of the last time.
     Array<Vec4> positions_;
@@ -151,7 +170,13 @@ private:
     Array<uint16_t> bodies_;
 
     Array<Row> rows_;
-    Array<int32_t> freshRows_, large_; // of another place than the last time; in no bin
+    Array<int32_t> freshRows_, goneRows_; // now of what was not there the last time; then of what is not there now
+    Array<Move> moves_;                   // what changed its row only
+    Array<int32_t> rowsNow_;              // by row of the last time, when something moved; -1: gone
+    Array<Row> movedRows_;
+    Array<int32_t> matches_;    // for finding moves
+    Array<int32_t> lastPlaces_; // by place: where it was in sortedRows_, -1 of what is fresh
+    Array<int32_t> large_;      // rows in no bin
     Array<Block> blocks_;
     Array<int32_t> freeSlots_, order_, changedSlots_;
     Array<uint8_t> needed_;
@@ -160,7 +185,7 @@ private:
     size_t tableUsed_ = 0;
     bool setChanged_ = false;
     int lastSlot_ = -1;
-    Array<int32_t> base_, lift_;   // by slot and node, in kDepositUnit: fill before lifting, and what that adds
+    Array<int32_t> base_, lift_;   // by slot and node, in unit_: fill before lifting, and what that adds
     Array<uint8_t> full_, inside_; // bit x of byte 8 z + y of each slot
 
     struct Line {
@@ -177,6 +202,15 @@ private:
     Array<float> sorted_; // the arrays of arrays_, one after the other
     FillArrays arrays_{};
 };
+
+template <class F> void SurfaceField::forAround(int slot, F&& f) const {
+    for (int32_t other : blocks_[slot].near) {
+        if (other < 0) continue;
+        const int32_t* starts = binStarts_.data() + size_t(other) * kBlockBins;
+        for (int32_t k = starts[0]; k < starts[kBlockBins]; ++k) f(k);
+    }
+    for (int k = rowCount() - largeCount(); k < rowCount(); ++k) f(k);
+}
 
 // f(slot) for all blocks that are marked.
 template <class F> void SurfaceField::forChanged(Tasks& tasks, F&& f) {

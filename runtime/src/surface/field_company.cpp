@@ -80,7 +80,7 @@ void SurfaceField::setFull(Row& row) {
 
 void SurfaceField::markFull(int slot) {
     constexpr float kFull = 0.9f; // what the nodes do not see between them is less than the rest
-    markInside(base_.data() + size_t(slot) * kNodes, nullptr, int32_t(kFull / kDepositUnit),
+    markInside(base_.data() + size_t(slot) * kNodes, nullptr, int32_t(kFull / unit_),
                full_.data() + size_t(slot) * kSide * kSide);
 }
 

@@ -19,7 +19,8 @@ template <class F> void SurfaceField::depositStirred(Array<int32_t>& sums, Tasks
         if (blocks_[slot].stirred) homes_.push(slot), blocks_[slot].stirred = false;
     const auto work = [&](int32_t home, DepositTile& tile) {
         const Block& block = blocks_[home];
-        const FillBlock place{{double(block.x) * kSide, double(block.y) * kSide, double(block.z) * kSide}, 1 / cell_};
+        const FillBlock place{
+            {double(block.x) * kSide, double(block.y) * kSide, double(block.z) * kSide}, 1 / cell_, 1 / unit_};
         constexpr int kTogether = 256;
         int which[kTogether + 2], count = 0;
         float amplitudes[kTogether + 2];
@@ -60,18 +61,11 @@ template <class F> void SurfaceField::depositStirred(Array<int32_t>& sums, Tasks
     }
 }
 
-// Of the particles as they were: those that are fresh, and all from `count` on.
-void SurfaceField::takeAway(int count, Tasks& tasks) {
-    const auto take = [&](Row& row) {
-        row.fresh = true;
-        markAround(row);
-    };
-    for (int32_t i : freshRows_) take(rows_[i]);
-    for (int i = count; i < int(rows_.size()); ++i) take(rows_[i]);
+// Of the particles as they were: those that are gone.
+void SurfaceField::takeAway(Tasks& tasks) {
+    for (int32_t i : goneRows_) rows_[i].fresh = true, markAround(rows_[i]);
     const auto stir = [&](auto&& which) {
-        const auto one = [&](const Row& row) { blocks_[row.home].stirred |= which(row); };
-        for (int32_t i : freshRows_) one(rows_[i]);
-        for (int i = count; i < int(rows_.size()); ++i) one(rows_[i]);
+        for (int32_t i : goneRows_) blocks_[rows_[i].home].stirred |= which(rows_[i]);
     };
     stir([](const Row&) { return true; });
     depositStirred(base_, tasks, [&](int k, auto&& push) {
@@ -123,7 +117,8 @@ void SurfaceField::depositLarge(Array<int32_t>& sums, const float* amplitudes, T
     if (large_.empty()) return;
     forChanged(tasks, [&](int slot) {
         const Block& block = blocks_[slot];
-        const FillBlock place{{double(block.x) * kSide, double(block.y) * kSide, double(block.z) * kSide}, 1 / cell_};
+        const FillBlock place{
+            {double(block.x) * kSide, double(block.y) * kSide, double(block.z) * kSide}, 1 / cell_, 1 / unit_};
         depositAcross(arrays_, int(rows_.size() - large_.size()), amplitudes, int(large_.size()), place,
                       sums.data() + size_t(slot) * kNodes);
     });
@@ -138,7 +133,7 @@ void SurfaceField::finishBlock(int slot) {
             block.around += binStarts_[bins + kBlockBins] - binStarts_[bins];
         }
     const size_t first = size_t(slot) * kNodes;
-    markInside(base_.data() + first, lift_.data() + first, int32_t(kIso / kDepositUnit),
+    markInside(base_.data() + first, lift_.data() + first, int32_t(kIso / unit_),
                inside_.data() + size_t(slot) * kSide * kSide);
 }
 

@@ -43,10 +43,15 @@ SurfaceMaker::SurfaceMaker(Allocator& allocator, const thawTaskSystem& system)
       background_(system) {}
 
 const SurfaceMesh& SurfaceMaker::extract(const SurfaceInput& input, const Wanted& wanted, Tasks& tasks) {
-    const auto start = std::chrono::steady_clock::now();
-    surface_.extract(input, wanted.cellSize, wanted.smoothing, tasks);
-    milliseconds_ = millisecondsSince(start);
+    time(input, wanted, tasks);
     return surface_;
+}
+
+void SurfaceMaker::time(const SurfaceInput& input, const Wanted& wanted, Tasks& tasks) {
+    const auto start = std::chrono::steady_clock::now();
+    const int64_t before = surface_.meshedBlocks();
+    surface_.extract(input, wanted.cellSize, wanted.smoothing, tasks);
+    milliseconds_ = millisecondsSince(start), blocks_ = surface_.meshedBlocks() - before;
 }
 
 void SurfaceMaker::begin(const Wanted& wanted) {
@@ -55,16 +60,14 @@ void SurfaceMaker::begin(const Wanted& wanted) {
 }
 
 void SurfaceMaker::make() {
-    const auto start = std::chrono::steady_clock::now();
     other_ = failed_ = false;
     try {
-        surface_.extract(rows.input(wanted_.spacing), wanted_.cellSize, wanted_.smoothing, alone_);
+        time(rows.input(wanted_.spacing), wanted_, alone_);
         other_ = surface_.made() != shownMade_;
         if (other_) next_.copy(surface_), nextMade_ = surface_.made();
     } catch (...) {
         failed_ = true; // only memory can be short
     }
-    milliseconds_ = millisecondsSince(start);
 }
 
 const SurfaceMesh& SurfaceMaker::finish() {

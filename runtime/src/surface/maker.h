@@ -40,9 +40,11 @@ public:
     Rows rows;
     const Surface& surface() const { return surface_; }  // while nothing is under way
     float milliseconds() const { return milliseconds_; } // that the last mesh took
+    int64_t meshedBlocks() const { return blocks_; }     // for it, without those of one that failed
 
 private:
     void make();
+    void time(const SurfaceInput& input, const Wanted& wanted, Tasks& tasks);
 
     Surface surface_;
     Tasks alone_; // the thread that makes it
@@ -51,6 +53,7 @@ private:
     int shownMade_ = -1, nextMade_ = -1;  // which of the surface's they are
     bool other_ = false, failed_ = false; // of the one under way: it is not the one that is shown
     float milliseconds_ = 0;
+    int64_t blocks_ = 0;
     Background background_; // last: is done before the rest goes
 };
 

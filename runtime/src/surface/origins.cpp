@@ -24,18 +24,18 @@ void OriginFinder::look(int slot, const float lower[3], const float upper[3]) {
                       field_.boxOf(slot, lower, upper), kSharper, near_, stride_, rows_);
 }
 
-// The particle that a point is deepest in the kernel of, or least far outside: of those that reach the block, which is
-// looked at again when they change.
+// The particle that a point is deepest in the kernel of, or least far outside: of all those that reach the block, which
+// is looked at again when they change. Those around the box are not all of them, and which ones they are has to do with
+// what was meshed before.
 uint32_t OriginFinder::deepest(Vec3 at) const {
     const FillArrays& from = field_.arrays();
     float best = INFINITY;
     uint32_t row = 0;
-    for (int run = 0; run < runs_.count; ++run)
-        for (int k = runs_.begins[run]; k < runs_.ends[run]; ++k) {
-            const Vec3 d = Vec3{from.x[k], from.y[k], from.z[k]} - at;
-            const float q = dot(d, d) * from.inverse[k];
-            if (q < best && field_.reaches(field_.rowsOfArrays()[k], slot_)) best = q, row = field_.rowsOfArrays()[k];
-        }
+    field_.forAround(slot_, [&](int k) {
+        const Vec3 d = Vec3{from.x[k], from.y[k], from.z[k]} - at;
+        const float q = dot(d, d) * from.inverse[k];
+        if (q < best && field_.reaches(field_.rowsOfArrays()[k], slot_)) best = q, row = field_.rowsOfArrays()[k];
+    });
     return row;
 }
 

@@ -140,6 +140,7 @@ void Surface::meshBlocks(const SurfaceInput& input, bool all, Tasks& tasks) {
     if (all) meshes_.clear(), vertexPool_.clear(), codePool_.clear();
     meshes_.resize(slots);
     edgeVertices_.resizeRaw(slots * 3 * kNodes);
+    if (!all && field_.rowsMoved()) followRows();
     changed_.clear();
     int most = 0;
     for (size_t slot = 0; slot < slots; ++slot) {
@@ -164,6 +165,16 @@ void Surface::meshBlocks(const SurfaceInput& input, bool all, Tasks& tasks) {
             if (meshes_[changed_[k]].vertexCount + meshes_[changed_[k]].codeCount) emit(changed_[k], input, worker);
     });
     blocksMeshed_ += int64_t(changed_.size());
+}
+
+// Blocks that keep their mesh find their particles in other rows.
+void Surface::followRows() {
+    for (size_t slot = 0; slot < meshes_.size(); ++slot) {
+        const BlockMesh& mesh = meshes_[slot];
+        if (!field_.block(int(slot)).alive || field_.block(int(slot)).changed) continue;
+        for (uint32_t k = 0; k < mesh.vertexCount; ++k)
+            for (uint32_t& row : origins_[mesh.vertices.begin + k].row) row = field_.rowNow(row);
+    }
 }
 
 void Surface::count(int slot) {

@@ -41,6 +41,7 @@ private:
 
     void drop();
     void meshBlocks(const SurfaceInput& input, bool all, Tasks& tasks);
+    void followRows();
     void count(int slot);
     void emit(int slot, const SurfaceInput& input, int worker);
     void emitVertex(int slot, int x, int y, int z, int axis, const OriginFinder& finder, const SurfaceInput& input,

@@ -97,8 +97,7 @@ SurfaceMaker::Wanted World::surfaceWanted(const thawSurfaceDef& d) const {
 
 void World::learnSurface(int level) {
     const Surface& made = surface_.surface();
-    const int64_t blocks = made.meshedBlocks() - meshedBlocks_;
-    meshedBlocks_ += blocks;
+    const int64_t blocks = surface_.meshedBlocks();
     const SurfaceLevel::Made facts{level, surface_.milliseconds(), blocks,
                                    blocks > 0 ? static_cast<int64_t>(made.positions.size()) : 0};
     surfaceLevel_.learn(facts), surfaceUnits_.learn(facts);

@@ -166,7 +166,6 @@ private:
     SurfaceMaker surface_;
     SplatShapes splats_;
     SurfaceLevel surfaceLevel_{SurfaceLevel::Prices::learnt}, surfaceUnits_{SurfaceLevel::Prices::fixed};
-    int64_t meshedBlocks_ = 0; // when it was last looked at
     int startedLevel_ = 0;     // of the mesh under way
     Reference reference_;
     Levels levels_;
