@@ -18,7 +18,6 @@ constexpr float kReach = 1.8f;
 constexpr float kReachCells = 1.3f;
 
 constexpr double kCoarsen = 1.26; // halves the volume of blocks
-constexpr int kPad = 8;           // lanes that may be read past the particles
 constexpr float kPi = 3.14159265f;
 
 struct Extremes {
@@ -47,10 +46,12 @@ Extremes extremesOf(const Vec4* positions, int count) {
 SurfaceField::SurfaceField(Allocator& allocator)
     : positions_(allocator), materials_(allocator), bodies_(allocator), rows_(allocator), freshRows_(allocator),
       goneRows_(allocator), moves_(allocator), rowsNow_(allocator), movedRows_(allocator), matches_(allocator),
-      lastPlaces_(allocator), large_(allocator), blocks_(allocator), freeSlots_(allocator), order_(allocator),
-      changedSlots_(allocator), needed_(allocator), tableKeys_(allocator), tableSlots_(allocator), base_(allocator),
-      lift_(allocator), full_(allocator), inside_(allocator), homes_(allocator), lines_(allocator), tiles_(allocator),
-      excessOfLarge_(allocator), binStarts_(allocator), sortedRows_(allocator), sorted_(allocator) {}
+      freshStarts_(allocator), sortedFresh_(allocator), large_(allocator), blocks_(allocator), freeSlots_(allocator),
+      order_(allocator), changedSlots_(allocator), needed_(allocator), tableKeys_(allocator), tableSlots_(allocator),
+      base_(allocator), lift_(allocator), full_(allocator), inside_(allocator), homes_(allocator), lines_(allocator),
+      tiles_(allocator), excessOfLarge_(allocator), binStarts_(allocator), sortedRows_(allocator),
+      lastStarts_(allocator), lastSortedRows_(allocator), sorted_(allocator), lastSorted_(allocator),
+      places_(allocator) {}
 
 void SurfaceField::clear() {
     valid_ = false;
@@ -89,12 +90,14 @@ SurfaceField::Change SurfaceField::update(const SurfaceInput& input, float wante
         while (!rebuild(input)) cell_ *= kCoarsen;
     }
     asked_ = wantedCell, spacing_ = input.spacing;
-    sortRows(input);
+    if (patch)
+        mergeRows(input);
+    else
+        sortRows(input);
     if (const float unit = unitFor(mostSupport); unit != unit_) {
         if (patch) rebuild(input), sortRows(input);
         unit_ = unit, patch = false;
     }
-    if (patch && rowsMoved()) markOvertaken();
     bring(tasks);
     forChanged(tasks, [&](int slot) { markFull(slot); });
     forChanged(tasks, [&](int slot) { countCompany(slot, input); });
@@ -183,37 +186,6 @@ float SurfaceField::unitFor(float mostSupport) const {
     float unit = kDepositUnit;
     while (fill > kMost * double(unit)) unit *= 2;
     return unit;
-}
-
-void SurfaceField::sortRows(const SurfaceInput& input) {
-    const size_t count = rows_.size(), stride = count + kPad;
-    binStarts_.assign(blocks_.size() * kBlockBins + 2, 0);
-    for (const Row& row : rows_)
-        if (row.home >= 0) ++binStarts_[size_t(row.home) * kBlockBins + row.bin + 2];
-    mostInBin_ = 0;
-    for (size_t b = 2; b < binStarts_.size(); ++b) {
-        mostInBin_ = std::max(mostInBin_, binStarts_[b]);
-        binStarts_[b] += binStarts_[b - 1];
-    }
-    const bool moved = rowsMoved();
-    if (moved) lastPlaces_.resizeRaw(count);
-    sortedRows_.resizeRaw(stride);
-    sorted_.resizeRaw(5 * stride);
-    float *x = sorted_.data(), *y = x + stride, *z = y + stride, *inverse = z + stride, *amplitude = inverse + stride;
-    arrays_ = {x, y, z, inverse, amplitude};
-    for (size_t i = 0; i < count; ++i) {
-        Row& row = rows_[i];
-        // Large ones are in no bin; they stand at the end.
-        const size_t bin = row.home >= 0 ? size_t(row.home) * kBlockBins + row.bin : blocks_.size() * kBlockBins;
-        const int32_t to = binStarts_[bin + 1]++;
-        sortedRows_[to] = uint32_t(i);
-        if (moved) lastPlaces_[to] = row.fresh ? -1 : row.place;
-        row.place = to;
-        const Vec4& p = input.positions[i];
-        x[to] = p.x, y[to] = p.y, z[to] = p.z, inverse[to] = row.inverse, amplitude[to] = row.amplitude;
-    }
-    for (float* a : {x, y, z, inverse, amplitude}) std::fill(a + count, a + stride, 0.0f);
-    std::fill(sortedRows_.data() + count, sortedRows_.data() + stride, 0u);
 }
 
 void SurfaceField::runsAround(int slot, const float lower[3], const float upper[3], Runs& out) const {

@@ -117,7 +117,6 @@ private:
         uint8_t reach;     // bits x-, x+, y-, y+, z-, z+: sides of the block that it may reach over
         bool otherCompany; // than the last time
         bool fresh;        // its nodes do not have it yet, or are to lose it
-        int32_t place;     // in sortedRows_
     };
     struct Kernel {
         float inverse, amplitude, reach; // 1 / R^2, V W(0), R in cells
@@ -129,7 +128,6 @@ private:
     void findFresh(const SurfaceInput& input, int count);
     void findMoves(const SurfaceInput& input);
     void moveRows(int count);
-    void markOvertaken();
     Kernel kernelOf(float support) const;
     float unitFor(float mostSupport) const;
     bool rebuild(const SurfaceInput& input);
@@ -144,6 +142,11 @@ private:
     void markAround(const Row& row);
     template <class F> void forChanged(Tasks& tasks, F&& f);
     void sortRows(const SurfaceInput& input);
+    void mergeRows(const SurfaceInput& input);
+    size_t placeOf(const Row& row) const;
+    void layArrays(size_t count);
+    void layOne(const SurfaceInput& input, size_t place);
+    void orderTies(const SurfaceInput& input);
     void countCompany(int slot, const SurfaceInput& input);
     void gatherBits(const Array<uint8_t>& bits, int slot, NodeBits& out) const;
     void markFull(int slot);
@@ -172,11 +175,11 @@ private:
     Array<Row> rows_;
     Array<int32_t> freshRows_, goneRows_; // now of what was not there the last time; then of what is not there now
     Array<Move> moves_;                   // what changed its row only
-    Array<int32_t> rowsNow_;              // by row of the last time, when something moved; -1: gone
+    Array<int32_t> rowsNow_;              // by row of the last time; -1: gone
     Array<Row> movedRows_;
-    Array<int32_t> matches_;    // for finding moves
-    Array<int32_t> lastPlaces_; // by place: where it was in sortedRows_, -1 of what is fresh
-    Array<int32_t> large_;      // rows in no bin
+    Array<int32_t> matches_;                   // for finding moves
+    Array<int32_t> freshStarts_, sortedFresh_; // as binStarts_ and sortedRows_, of those that are fresh
+    Array<int32_t> large_;                     // rows in no bin
     Array<Block> blocks_;
     Array<int32_t> freeSlots_, order_, changedSlots_;
     Array<uint8_t> needed_;
@@ -196,10 +199,13 @@ private:
     Array<int32_t> tiles_; // by worker; zeros
     Array<float> excessOfLarge_;
 
-    // Rows by bin, and by row within a bin; large ones last.
+    // Rows by bin, and by place within a bin; large ones last.
     Array<int32_t> binStarts_;
     Array<uint32_t> sortedRows_;
-    Array<float> sorted_; // the arrays of arrays_, one after the other
+    Array<int32_t> lastStarts_;
+    Array<uint32_t> lastSortedRows_;
+    Array<float> sorted_, lastSorted_; // the arrays of arrays_, one after the other
+    Array<Vec4> places_;               // for sorting what is crowded
     FillArrays arrays_{};
 };
 

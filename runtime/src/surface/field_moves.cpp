@@ -42,51 +42,62 @@ void SurfaceField::findFresh(const SurfaceInput& input, int count) {
     }
     for (int i = common; i < count; ++i) freshRows_.push(i);
     for (int i = common; i < before; ++i) goneRows_.push(i);
+    if (freshRows_.empty() && goneRows_.empty()) return;
+    rowsNow_.resizeRaw(positions_.size());
+    std::iota(rowsNow_.begin(), rowsNow_.end(), 0);
+    for (int32_t row : goneRows_) rowsNow_[row] = -1;
     if (!freshRows_.empty() && !goneRows_.empty()) findMoves(input);
 }
 
 void SurfaceField::findMoves(const SurfaceInput& input) {
     const auto same = [&](int32_t was, int32_t is) {
-        return std::memcmp(&positions_[was], &input.positions[is], sizeof(Vec4)) == 0 &&
+        return rowsNow_[was] < 0 && std::memcmp(&positions_[was], &input.positions[is], sizeof(Vec4)) == 0 &&
                materials_[was] == input.materials[is] && bodies_[was] == input.bodies[is];
     };
+    const auto match = [&](auto&& find) {
+        size_t left = 0;
+        for (int32_t is : freshRows_) {
+            const int32_t was = find(is);
+            if (was < 0) {
+                freshRows_[left++] = is;
+            } else {
+                rowsNow_[was] = is;
+                moves_.push({was, is});
+            }
+        }
+        freshRows_.resizeRaw(left);
+        left = 0;
+        for (int32_t row : goneRows_)
+            if (rowsNow_[row] < 0) goneRows_[left++] = row;
+        goneRows_.resizeRaw(left);
+    };
+    // Most stand about as far off as the one before, and need no table.
+    constexpr int32_t kSteps[] = {0, 1, -1, 2, -2, 3, -3};
+    int32_t off = 0;
+    match([&](int32_t is) {
+        for (int32_t step : kSteps)
+            if (const int32_t was = is + off + step; was >= 0 && was < int32_t(positions_.size()) && same(was, is)) {
+                off += step;
+                return was;
+            }
+        return int32_t(-1);
+    });
+    if (freshRows_.empty() || goneRows_.empty()) return;
+
     size_t size = 256;
     while (size < 2 * goneRows_.size()) size *= 2;
     const uint32_t mask = uint32_t(size - 1);
     matches_.assign(size, -1);
-    // Last first, so that the first of several in one place is found first.
-    for (size_t n = goneRows_.size(); n-- > 0;) {
-        uint32_t at = hashOf(positions_[goneRows_[n]]) & mask;
+    for (int32_t row : goneRows_) {
+        uint32_t at = hashOf(positions_[row]) & mask;
         while (matches_[at] >= 0) at = (at + 1) & mask;
-        matches_[at] = goneRows_[n];
+        matches_[at] = row;
     }
-    rowsNow_.resizeRaw(positions_.size());
-    std::iota(rowsNow_.begin(), rowsNow_.end(), 0);
-    for (int32_t row : goneRows_) rowsNow_[row] = -1;
-    size_t left = 0;
-    for (int32_t is : freshRows_) {
-        int32_t found = -1;
-        // Most stand as far off as the one before.
-        if (!moves_.empty()) {
-            const Move& last = moves_[moves_.size() - 1];
-            const int32_t was = last.from + (is - last.to);
-            if (was >= 0 && size_t(was) < rowsNow_.size() && rowsNow_[was] < 0 && same(was, is)) found = was;
-        }
-        for (uint32_t at = hashOf(input.positions[is]) & mask; found < 0 && matches_[at] >= 0; at = (at + 1) & mask)
-            if (const int32_t was = matches_[at]; rowsNow_[was] < 0 && same(was, is)) found = was;
-        if (found < 0) {
-            freshRows_[left++] = is;
-        } else {
-            rowsNow_[found] = is;
-            moves_.push({found, is});
-        }
-    }
-    freshRows_.resizeRaw(left);
-    if (moves_.empty()) return;
-    left = 0;
-    for (int32_t row : goneRows_)
-        if (rowsNow_[row] < 0) goneRows_[left++] = row;
-    goneRows_.resizeRaw(left);
+    match([&](int32_t is) {
+        for (uint32_t at = hashOf(input.positions[is]) & mask; matches_[at] >= 0; at = (at + 1) & mask)
+            if (same(matches_[at], is)) return matches_[at];
+        return int32_t(-1);
+    });
 }
 
 // What is known of particles comes to the rows that they have now.
@@ -95,19 +106,6 @@ void SurfaceField::moveRows(int count) {
     for (size_t n = 0; n < moves_.size(); ++n) movedRows_[n] = rows_[moves_[n].from];
     rows_.resizeRaw(count);
     for (size_t n = 0; n < moves_.size(); ++n) rows_[moves_[n].to] = movedRows_[n];
-}
-
-// Particles of a bin are taken in the order of their rows, and sums of numbers that are not whole show it: where one
-// has come before another that it was after, what both reach is not what it was.
-void SurfaceField::markOvertaken() {
-    int32_t last = -1;
-    for (size_t place = 0; place < rows_.size(); ++place) {
-        if (lastPlaces_[place] < 0) continue;
-        if (lastPlaces_[place] < last)
-            markAround(rows_[sortedRows_[place]]);
-        else
-            last = lastPlaces_[place];
-    }
 }
 
 } // namespace thaw
