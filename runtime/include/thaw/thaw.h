@@ -263,6 +263,18 @@ THAW_API void thawInitMaterialDef(thawMaterialDef* def, thawMaterialPreset prese
 THAW_API const char* thawMaterialPresetName(thawMaterialPreset preset);
 /* Materials live as long as their world. */
 THAW_API thawResult thawCreateMaterial(thawWorld* world, const thawMaterialDef* def, thawMaterialId* outId);
+/* Replaces every property, also while there is matter of it; takes effect in the next step and costs one look at all
+ * particles, so that it may be called before every step. What is there keeps
+ *  - its temperature: it is as liquid as the new melting range makes it, and without a range, exactly at its melting
+ *    point, as it was. The heat is in thawLedger.redefined. Where nothing of solidus, liquidus, latentHeat and the
+ *    specific heats is another, its heat stays to the last bit. Below solidus and liquid, it stays so down to the new
+ *    undercooling, and without one it sets and warms, its heat kept.
+ *  - its volume and velocity: with another density it has another mass, and pressure by as much. The difference is in
+ *    massAdded, energyAdded, massRemoved and energyRemoved of the ledger.
+ *  - its form: rigid solid that becomes elastic (youngModulus) is free of stress as it is, elastic solid that becomes
+ *    rigid stays as it is bent. Elastic solid that sleeps wakes.
+ * thawResult_capacity when coarse particles have to split to become elastic and maxParticles leaves no room for it. */
+THAW_API thawResult thawMaterial_Set(thawWorld* world, thawMaterialId id, const thawMaterialDef* def);
 
 /* ---- meshes ----------------------------------------------------------------------------------------------------- */
 
@@ -392,6 +404,11 @@ THAW_API thawResult thawCollider_SetTransform(thawWorld* world, thawColliderId i
 THAW_API thawResult thawCollider_Teleport(thawWorld* world, thawColliderId id, thawVec3 position, thawQuat rotation);
 THAW_API thawResult thawCollider_GetTransform(const thawWorld* world, thawColliderId id, thawVec3* position,
                                               thawQuat* rotation);
+
+/* How it touches from the next step on: adhesive, occluder, slipLength and friction as in thawColliderDef. What hangs on
+ * it goes on hanging, what sleeps wakes. May be called before every step. */
+THAW_API thawResult thawCollider_SetSurface(thawWorld* world, thawColliderId id, bool adhesive, bool occluder,
+                                            float slipLength, float friction);
 
 /* What it heats or cools from the next step on: temperature and contactConductance as in thawColliderDef; a NaN
  * temperature switches it off. May be called before every step. */
@@ -769,6 +786,7 @@ typedef struct thawLedger {
     double energyAdded;                     /* J, enthalpy that bodies brought, relative to each material's solidus */
     double energyRemoved;                   /* J, taken out with destroyed bodies and bad particles */
     double painted;                         /* J, by thawBody_PaintTemperature */
+    double redefined;                       /* J, by thawMaterial_Set: the same temperatures in another curve */
     double absorbed;                        /* J from sources */
     double contact;                         /* J from colliders with a temperature */
     double emitted;                         /* J by thermal radiation, net of what ambient sends back */
@@ -778,7 +796,7 @@ typedef struct thawLedger {
     double controlEnergy;                   /* J, kinetic energy that they gave, < 0: took */
     double controlHeat;                     /* J that shapes took until what is in them set */
     double massError;                       /* |massNow - added + removed + burnt| / added */
-    double energyError; /* |energyNow - (added - removed - burnt + painted + absorbed + contact - emitted - convected
+    double energyError; /* |energyNow - (added - removed - burnt + painted + redefined + absorbed + contact - emitted - convected
                            - controlHeat)| / largest sum moved */
 } thawLedger;
 THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);

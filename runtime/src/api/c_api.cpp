@@ -560,6 +560,18 @@ thawResult thawCreateMaterial(thawWorld* world, const thawMaterialDef* def, thaw
     });
 }
 
+thawResult thawMaterial_Set(thawWorld* world, thawMaterialId id, const thawMaterialDef* def) {
+    return guarded(world, [&](World& w, Check& c) {
+        checkMaterial(c, def);
+        if (c.ok() && (id.index1 == 0 || id.world != w.tag || id.index1 > w.materials.size() || id.generation != 1))
+            c.fail(thawResult_staleId, "material: is not a material of this world");
+        if (!c.ok()) return;
+        std::string message;
+        if (const thawResult r = w.setMaterial(id.index1 - 1, *def, message); r != thawResult_ok)
+            c.fail(r, "%s", message.c_str());
+    });
+}
+
 void thawInitBodyDef(thawBodyDef* def) {
     if (!def) return;
     *def = thawBodyDef{};
@@ -712,6 +724,16 @@ thawResult thawCollider_GetTransform(const thawWorld* world, thawColliderId id, 
     *position = {t.position.x, t.position.y, t.position.z};
     *rotation = {t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w};
     return thawResult_ok;
+}
+
+thawResult thawCollider_SetSurface(thawWorld* world, thawColliderId id, bool adhesive, bool occluder, float slipLength,
+                                   float friction) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!alive(w, id, w.colliderSlots)) c.fail(thawResult_staleId, "collider: is not alive in this world");
+        c.range("slipLength", slipLength, 0, 1e4);
+        c.range("friction", friction, 0, 10);
+        if (c.ok()) w.setColliderSurface(id.index1 - 1, adhesive, occluder, slipLength, friction);
+    });
 }
 
 thawResult thawCollider_SetHeat(thawWorld* world, thawColliderId id, float temperature, float contactConductance) {

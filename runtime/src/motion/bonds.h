@@ -66,6 +66,12 @@ public:
     int wakeBefore(const BondFrame& f);
     // Bonds everything of these soft materials that is solid and has no bond yet, wherever it is and however it moves.
     BondResult bondAll(const BondFrame& f);
+    // Wakes what sleeps, of one material or of all. How many rows.
+    int wakeAll(Particles& p, int material = -1);
+    // Ends the bonds among what is rigid: a material was elastic until now.
+    void harden(Particles& p, const Material* materials);
+    // Memory for so many particles; later calls take none.
+    void reserve(int particles);
     // How many sub-steps of a step of dt bodies that fall on each other, or rigid pieces and such bodies, ask for, at
     // most `limit`; of the first 64 bodies.
     int subStepsWanted(const Particles& p, float dt, Vec3 gravity, float spacing, int limit) const;
@@ -176,7 +182,6 @@ private:
     // those within would make up 1.11 times the stiffness of either one, and the layer between 1.26 times. With this
     // both are 1.01: 3/4 of each spring makes the sums of rest^2 those of the lattices.
     static constexpr float kMixed = 0.75f;
-    void reserve(int particles);
     void mapRows(const Particles& p);
     uint32_t take(Particles& p, uint32_t row);
     void drop(uint32_t slot);

@@ -41,19 +41,19 @@ struct Material {
         return unseeded ? def.liquidus + (H - latent) / def.specificHeatLiquid : kelvin(H);
     }
     float liquidFraction(double H, bool unseeded) const { return unseeded ? 1.0f : liquidFraction(H); }
-    double enthalpy(float T, bool unseeded) const {
-        return unseeded ? latent + (static_cast<double>(T) - def.liquidus) * def.specificHeatLiquid : enthalpy(T);
+    double enthalpy(double T, bool unseeded) const {
+        return unseeded ? latent + (T - def.liquidus) * def.specificHeatLiquid : enthalpy(T);
     }
     // What is unseeded stays so down to here; and never where a solid has more heat at 0 K.
     double undercooledEnthalpy() const {
         const double coldest = static_cast<double>(def.solidus) - def.undercooling;
         return std::max(latent + (coldest - def.liquidus) * def.specificHeatLiquid, enthalpyFloor());
     }
-    double enthalpy(float T) const {
-        if (T < def.solidus) return (static_cast<double>(T) - def.solidus) * def.specificHeatSolid;
+    double enthalpy(double T) const {
+        if (T < def.solidus) return (T - def.solidus) * def.specificHeatSolid;
         if (T > def.liquidus || def.liquidus == def.solidus)
-            return T > def.liquidus ? latent + (static_cast<double>(T) - def.liquidus) * def.specificHeatLiquid : 0.0;
-        return latent * (static_cast<double>(T) - def.solidus) / (static_cast<double>(def.liquidus) - def.solidus);
+            return T > def.liquidus ? latent + (T - def.liquidus) * def.specificHeatLiquid : 0.0;
+        return latent * (T - def.solidus) / (static_cast<double>(def.liquidus) - def.solidus);
     }
     // Lowest possible enthalpy: 0 K.
     double enthalpyFloor() const { return -static_cast<double>(def.solidus) * def.specificHeatSolid; }

@@ -969,9 +969,15 @@ uint64_t World::stateHash() const {
         bytes(v, sizeof v);
     }
     bytes(&stepsSinceRelabel_, sizeof stepsSinceRelabel_);
+    h = hashMaterials(h);
     for (const Collider& c : colliders) {
         if (!c.heats()) continue;
         bytes(&c.temperature, sizeof c.temperature), bytes(&c.conductance, sizeof c.conductance);
+    }
+    for (const Collider& c : colliders) {
+        if (!c.alive) continue;
+        bytes(&c.slipLength, sizeof c.slipLength), bytes(&c.friction, sizeof c.friction);
+        h = hashCombine(h, static_cast<uint64_t>(c.adhesive) << 1 | static_cast<uint64_t>(c.occluder));
     }
     for (const Collider& c : colliders) {
         if (!c.alive || !toldApart(c)) continue;
@@ -995,13 +1001,14 @@ thawLedger World::ledger() const {
     l.energyAdded = energyAdded_, l.energyRemoved = energyRemoved_, l.energyNow = energyNow_;
     std::copy(std::begin(controlImpulse_), std::end(controlImpulse_), std::begin(l.controlImpulse));
     l.controlEnergy = controlEnergy_, l.controlHeat = controlHeat_;
-    l.painted = painted_, l.absorbed = absorbed_, l.contact = contact_, l.emitted = emitted_, l.convected = convected_;
+    l.painted = painted_, l.redefined = redefined_, l.absorbed = absorbed_, l.contact = contact_, l.emitted = emitted_,
+    l.convected = convected_;
     l.massError = massAdded_ > 0 ? std::abs(massNow_ - massAdded_ + massRemoved_ + massBurnt_) / massAdded_ : 0;
-    const double expected = energyAdded_ - energyRemoved_ - energyBurnt_ + painted_ + absorbed_ + contact_ - emitted_ -
-                            convected_ - controlHeat_;
+    const double expected = energyAdded_ - energyRemoved_ - energyBurnt_ + painted_ + redefined_ + absorbed_ +
+                            contact_ - emitted_ - convected_ - controlHeat_;
     const double scale = std::max({std::abs(energyAdded_ - energyRemoved_), std::abs(energyBurnt_), std::abs(painted_),
-                                   std::abs(absorbed_), std::abs(contact_), std::abs(emitted_), std::abs(convected_),
-                                   std::abs(controlHeat_)});
+                                   std::abs(redefined_), std::abs(absorbed_), std::abs(contact_), std::abs(emitted_),
+                                   std::abs(convected_), std::abs(controlHeat_)});
     l.energyError = scale > 0 ? std::abs(energyNow_ - expected) / scale : 0;
     return l;
 }

@@ -64,10 +64,13 @@ public:
     int paintTemperature(uint32_t body, const thawBrush& brush, float temperature);
     int paintAbsorptivity(uint32_t body, const thawBrush& brush, float value);
     thawBodyState bodyState(uint32_t index) const;
+    // Replaces what is set of one, also where there is matter of it.
+    thawResult setMaterial(uint32_t index, const thawMaterialDef& def, std::string& message);
     thawResult addCollider(const thawColliderDef& def, thawMeshReport& report, std::string& message, uint32_t& index1);
     void removeCollider(uint32_t index);
     void setColliderTarget(uint32_t index, const Transform& target);
     void teleportCollider(uint32_t index, const Transform& to);
+    void setColliderSurface(uint32_t index, bool adhesive, bool occluder, float slipLength, float friction);
     // Makes one (index1 0) or replaces what is set of one.
     thawResult setPath(const thawPathDef& def, std::string& message, uint32_t& index1);
     void removePath(uint32_t index);
@@ -135,6 +138,10 @@ private:
     void findAnchors();
     BondFrame bondFrame(float dt);
     bool anySoft() const; // some material is elastic
+    uint64_t hashMaterials(uint64_t h) const;
+    thawResult makeRoomForBonds(uint32_t material, std::string& message);
+    void soften(uint32_t material);
+    void harden(uint32_t material);
     void measure();
     // Of all rows k for which remove(k); adds what they had to mass and energy. Returns how many.
     template <class F> int removeParticles(F&& remove, double& mass, double& energy);
@@ -211,7 +218,7 @@ private:
     double massAdded_ = 0, massRemoved_ = 0, energyAdded_ = 0, energyRemoved_ = 0;
     double massBurnt_ = 0, energyBurnt_ = 0;
     double controlImpulse_[3] = {}, controlEnergy_ = 0, controlHeat_ = 0;
-    double painted_ = 0, absorbed_ = 0, contact_ = 0, emitted_ = 0, convected_ = 0;
+    double painted_ = 0, redefined_ = 0, absorbed_ = 0, contact_ = 0, emitted_ = 0, convected_ = 0;
     double massNow_ = 0, energyNow_ = 0, liquidMass_ = 0;
     float minTemperature_ = 0, maxTemperature_ = 0;
     int undercooled_ = 0; // particles that solid would set, even where all has one temperature
