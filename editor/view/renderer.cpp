@@ -550,6 +550,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         materialRoughness[i] = std::clamp(look.roughness, 0.05f, 1.0f);
         // As in common.glsl.
         const auto share = [](float depth) { return std::max(depth, 0.0f) / (std::max(depth, 0.0f) + 0.05f); };
+        if (view.draft) continue;
         materialClear[2 * i] = share(look.clearDepth), materialClear[2 * i + 1] = share(look.meltClearDepth);
         anyClear = anyClear || look.clearDepth > 0 || look.meltClearDepth > 0;
     }
@@ -676,8 +677,10 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     glBindFramebuffer(GL_FRAMEBUFFER, keyFramebuffer.get());
     glViewport(0, 0, kKeyMapSize, kKeyMapSize);
     glClear(GL_DEPTH_BUFFER_BIT);
-    drawThings(meshKey, &particleKey, true);
-    splats.drawKey();
+    if (!view.draft) {
+        drawThings(meshKey, &particleKey, true);
+        splats.drawKey();
+    }
     glDisable(GL_DEPTH_CLAMP);
     glEnable(GL_CLIP_DISTANCE0);
     glViewport(0, 0, kFlameMapSize, kFlameMapSize);
@@ -685,6 +688,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     for (int i = 0; i < std::min(flameCount, kShadowedFlames) && view.mode == ViewMode::shaded; ++i) {
         glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, flameMap.get(), 0, i);
         glClear(GL_DEPTH_BUFFER_BIT);
+        if (view.draft) continue;
         meshFlame.use();
         meshFlame.set("uFlameLayer", i);
         drawThings(meshFlame, nullptr, true);
@@ -694,7 +698,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     bindTexture(unitFlameMap, GL_TEXTURE_2D_ARRAY, flameMap.get());
 
     // Mirror image of the table.
-    const bool reflects = floorShown && !dataView && scene.floor.reflectivity > 0;
+    const bool reflects = floorShown && !dataView && !view.draft && scene.floor.reflectivity > 0;
     glBindFramebuffer(GL_FRAMEBUFFER, mirror.framebuffer.get());
     glViewport(0, 0, mirror.width, mirror.height);
     glClearColor(0, 0, 0, 0);

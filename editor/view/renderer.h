@@ -132,6 +132,7 @@ struct View {
     float temperatureLow = 0, temperatureHigh = 0; // K, ends of the scale; equal: from the data
     float speedHigh = 0;                           // m/s, end of the scale of particle speeds; 0: from the data
     bool legend = true;                            // scale or key in the picture, where the mode has one
+    bool draft = false; // no shadows, reflections and looking through: half the time, while something moves
 };
 
 /// Draws scenes with OpenGL 3.3 core. Belongs to the context that was current when it was made (of a HeadlessContext or

@@ -9,6 +9,7 @@
 #include "thaw/thaw.h"
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -80,7 +81,7 @@ struct Body {
     std::vector<Part> parts;  // at most 64, later ones count where they overlap
     int coarsestLevel = 0;    // highest level that its solid starts with, 0..3
     bool anchored = true;     // stuck to the collider that it touches; false: stands free
-    std::vector<Paint> paint; // at most 64, one after the other
+    std::vector<Paint> paint; // at most 4096, one after the other
 };
 
 struct Collider {
@@ -195,6 +196,8 @@ std::string writeScene(const Scene& scene);
 // Writes it to a file, beside it first and then in its place. Throws std::runtime_error with the reason; what stood
 // there is then untouched.
 void saveScene(const Scene& scene, const std::string& path);
+// Any text, in the same way.
+void saveText(const std::string& text, const std::string& path);
 
 const char* shapeName(ShapeType type);
 // Plain text on one line: control characters become spaces, long text is cut.
@@ -207,9 +210,11 @@ struct SceneMeshes {
     std::vector<TriMesh> bodies, colliders, shapes, props; // empty for planes and contours
     std::vector<std::vector<TriMesh>> parts;               // of each body, in its space; empty for a depth
 };
+// What reads a mesh file; throws std::runtime_error as importMesh does.
+using MeshReader = std::function<TriMesh(const std::string& path)>;
 // Throws InputError that names the place in the scene.
-SceneMeshes loadMeshes(const Scene& scene);
-TriMesh makeShape(const Shape& shape, const std::string& directory);
+SceneMeshes loadMeshes(const Scene& scene, const MeshReader& read = importMesh);
+TriMesh makeShape(const Shape& shape, const std::string& directory, const MeshReader& read = importMesh);
 
 // Particles that a mesh will hold, from its volume.
 double estimateParticles(const TriMesh& mesh, float scale, float spacing);
@@ -246,8 +251,25 @@ private:
     std::vector<int32_t> sizes_;
 };
 
+// The definition of a path, with the scene's points; colliders as in SceneWorld.
+thawPathDef pathDef(const Path& path, const std::vector<thawColliderId>& colliders);
+
 // Throws InputError when the scene asks for what cannot be, std::runtime_error when memory is short.
-// threads: range 1..64.
-SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads);
+// threads: range 1..64. room: for 32 more of everything and half as many particles again, for who edits the scene
+// while it runs; not where the scene says maxParticles itself.
+SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads, bool room = false);
+
+// One thing of the scene in a world that is there. Throw as buildWorld does. report: not null.
+thawMaterialId createMaterial(thawWorld* world, const Scene& scene, size_t i);
+thawColliderId createCollider(thawWorld* world, const Scene& scene, const SceneMeshes& meshes, size_t i,
+                              thawMeshReport* report);
+thawBodyId createBody(thawWorld* world, const Scene& scene, const SceneMeshes& meshes, size_t i,
+                      const std::vector<thawMaterialId>& materials, thawMeshReport* report);
+// A body's paint from the first-th on.
+void paintBody(thawWorld* world, const Scene& scene, size_t i, thawBodyId id, size_t first);
+thawHeatSourceId createSource(thawWorld* world, const Scene& scene, size_t i);
+thawPathId createPath(thawWorld* world, const Scene& scene, size_t i, const std::vector<thawColliderId>& colliders);
+thawShapeId createShape(thawWorld* world, const Scene& scene, const SceneMeshes& meshes, size_t i,
+                        const std::vector<thawColliderId>& colliders);
 
 } // namespace thaw::scene

@@ -68,7 +68,7 @@ int capacityFor(const Scene& scene, const SceneMeshes& meshes) {
 }
 } // namespace
 
-TriMesh makeShape(const Shape& shape, const std::string& directory) {
+TriMesh makeShape(const Shape& shape, const std::string& directory, const MeshReader& read) {
     switch (shape.type) {
     case ShapeType::plane:
         return {};
@@ -83,16 +83,16 @@ TriMesh makeShape(const Shape& shape, const std::string& directory) {
     case ShapeType::torus:
         return makeTorus(shape.radius, shape.tubeRadius);
     case ShapeType::mesh:
-        return importMesh(resolved(shape.meshFile, directory));
+        return read(resolved(shape.meshFile, directory));
     }
     return {};
 }
 
-SceneMeshes loadMeshes(const Scene& scene) {
+SceneMeshes loadMeshes(const Scene& scene, const MeshReader& read) {
     SceneMeshes out;
     auto load = [&](const char* list, size_t index, const Shape& shape) {
         try {
-            return makeShape(shape, scene.directory);
+            return makeShape(shape, scene.directory, read);
         } catch (const InputError&) {
             throw;
         } catch (const std::exception& e) {
@@ -143,6 +143,13 @@ thawHeatSourceDef sourceDef(const HeatSource& h) {
     return d;
 }
 
+thawPathDef pathDef(const Path& path, const std::vector<thawColliderId>& colliders) {
+    thawPathDef d = path.def;
+    d.points = path.points.data(), d.pointCount = int32_t(path.points.size());
+    if (path.collider >= 0) d.collider = colliders[size_t(path.collider)];
+    return d;
+}
+
 FillShapeDef::FillShapeDef(const FillShape& shape, const TriMesh& mesh) : def(shape.def) {
     for (const std::vector<thawVec3>& contour : shape.contours) {
         points_.insert(points_.end(), contour.begin(), contour.end());
@@ -155,19 +162,135 @@ FillShapeDef::FillShapeDef(const FillShape& shape, const TriMesh& mesh) : def(sh
     def.scale = shape.placement.scale;
 }
 
-SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads) {
+thawMaterialId createMaterial(thawWorld* world, const Scene& scene, size_t i) {
+    thawMaterialId id{};
+    const thawResult result = thawCreateMaterial(world, &scene.materials[i].def, &id);
+    if (result != thawResult_ok) refused(scene, placeOf("materials", i), result, world);
+    return id;
+}
+
+thawColliderId createCollider(thawWorld* world, const Scene& scene, const SceneMeshes& meshes, size_t i,
+                              thawMeshReport* report) {
+    const Collider& c = scene.colliders[i];
+    thawColliderType type = thawCollider_mesh;
+    thawVec3 size{};
+    const float s = c.placement.scale;
+    if (c.shape.type == ShapeType::plane) type = thawCollider_plane;
+    if (c.shape.type == ShapeType::box) {
+        type = thawCollider_box;
+        size = {0.5f * s * c.shape.size.x, 0.5f * s * c.shape.size.y, 0.5f * s * c.shape.size.z};
+    }
+    if (c.shape.type == ShapeType::sphere) {
+        type = thawCollider_sphere;
+        size.x = s * c.shape.radius;
+    }
+    thawColliderDef d;
+    thawInitColliderDef(&d, type);
+    d.position = c.placement.position;
+    d.rotation = c.placement.rotation;
+    if (type == thawCollider_box) d.size = size;
+    if (type == thawCollider_sphere) d.size.x = size.x;
+    if (type == thawCollider_mesh) {
+        d.mesh = meshes.colliders[i].view();
+        d.scale = s;
+    }
+    d.adhesive = c.adhesive;
+    d.slipLength = c.slipLength;
+    d.friction = c.friction;
+    d.temperature = c.temperature;
+    d.contactConductance = c.contactConductance;
+    d.occluder = c.occluder;
+    thawColliderId id{};
+    const thawResult result = thawCreateCollider(world, &d, &id, report);
+    if (result != thawResult_ok) refused(scene, placeOf("colliders", i), result, world);
+    return id;
+}
+
+void paintBody(thawWorld* world, const Scene& scene, size_t i, thawBodyId id, size_t first) {
+    const Body& b = scene.bodies[i];
+    for (size_t k = first; k < b.paint.size(); ++k) {
+        const Paint& paint = b.paint[k];
+        thawResult painted = thawResult_ok;
+        if (!std::isnan(paint.temperature))
+            painted = thawBody_PaintTemperature(world, id, &paint.brush, paint.temperature, nullptr);
+        if (painted == thawResult_ok && !std::isnan(paint.absorptivity))
+            painted = thawBody_PaintAbsorptivity(world, id, &paint.brush, paint.absorptivity, nullptr);
+        if (painted != thawResult_ok) refused(scene, placeOf("bodies", i), painted, world);
+    }
+}
+
+thawBodyId createBody(thawWorld* world, const Scene& scene, const SceneMeshes& meshes, size_t i,
+                      const std::vector<thawMaterialId>& materials, thawMeshReport* report) {
+    const Body& b = scene.bodies[i];
+    thawBodyDef d;
+    thawInitBodyDef(&d);
+    d.material = materials[size_t(b.material)];
+    d.mesh = meshes.bodies[i].view();
+    d.position = b.placement.position;
+    d.rotation = b.placement.rotation;
+    d.scale = b.placement.scale;
+    d.temperature = b.temperature;
+    std::vector<thawBodyPart> parts;
+    for (size_t k = 0; k < b.parts.size(); ++k) {
+        thawBodyPart& part = parts.emplace_back();
+        part = {};
+        part.material = materials[size_t(b.parts[k].material)];
+        part.depth = b.parts[k].depth;
+        if (part.depth <= 0) part.mesh = meshes.parts[i][k].view();
+    }
+    d.parts = parts.data(), d.partCount = int32_t(parts.size());
+    d.anchored = b.anchored;
+    d.coarsestLevel = b.coarsestLevel;
+    thawBodyId id{};
+    const thawResult result = thawCreateBody(world, &d, &id, report);
+    if (result != thawResult_ok) refused(scene, placeOf("bodies", i), result, world);
+    paintBody(world, scene, i, id, 0);
+    return id;
+}
+
+thawHeatSourceId createSource(thawWorld* world, const Scene& scene, size_t i) {
+    const thawHeatSourceDef d = sourceDef(scene.heatSources[i]);
+    thawHeatSourceId id{};
+    const thawResult result = thawCreateHeatSource(world, &d, &id);
+    if (result != thawResult_ok) refused(scene, placeOf("heatSources", i), result, world);
+    return id;
+}
+
+thawPathId createPath(thawWorld* world, const Scene& scene, size_t i, const std::vector<thawColliderId>& colliders) {
+    const thawPathDef d = pathDef(scene.paths[i], colliders);
+    thawPathId id{};
+    const thawResult result = thawCreatePath(world, &d, &id);
+    if (result != thawResult_ok) refused(scene, placeOf("paths", i), result, world);
+    return id;
+}
+
+thawShapeId createShape(thawWorld* world, const Scene& scene, const SceneMeshes& meshes, size_t i,
+                        const std::vector<thawColliderId>& colliders) {
+    const FillShape& shape = scene.shapes[i];
+    FillShapeDef fill(shape, meshes.shapes[i]);
+    if (shape.collider >= 0) fill.def.collider = colliders[size_t(shape.collider)];
+    thawShapeId id{};
+    const thawResult result = thawCreateShape(world, &fill.def, &id);
+    if (result != thawResult_ok) refused(scene, placeOf("shapes", i), result, world);
+    return id;
+}
+
+SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads, bool room) {
     SceneWorld out;
     thawWorldDef def;
     thawInitWorldDef(&def);
     const WorldSettings& w = scene.world;
+    const int spare = room ? 32 : 0;
     def.particleSpacing = w.particleSpacing;
     def.maxParticles = capacityFor(scene, meshes);
-    def.maxMaterials = std::max(1, int(scene.materials.size()));
-    def.maxBodies = std::max(1, int(scene.bodies.size()));
-    def.maxColliders = std::max(1, int(scene.colliders.size()));
-    def.maxHeatSources = std::max(1, int(scene.heatSources.size()));
-    def.maxPaths = std::max(1, int(scene.paths.size()));
-    def.maxShapes = std::max(1, int(scene.shapes.size()));
+    if (room && !w.maxParticles)
+        def.maxParticles = std::min(kMaxParticles, def.maxParticles + std::max(def.maxParticles / 2, 20000));
+    def.maxMaterials = std::min(255, std::max(1, int(scene.materials.size()) + spare));
+    def.maxBodies = std::max(1, int(scene.bodies.size()) + spare);
+    def.maxColliders = std::max(1, int(scene.colliders.size()) + spare);
+    def.maxHeatSources = std::max(1, int(scene.heatSources.size()) + spare);
+    def.maxPaths = std::max(1, int(scene.paths.size()) + spare);
+    def.maxShapes = std::max(1, int(scene.shapes.size()) + spare);
     def.gravity = w.gravity;
     def.ambientTemperature = w.ambientTemperature;
     def.convection = w.convection;
@@ -183,112 +306,15 @@ SceneWorld buildWorld(const Scene& scene, const SceneMeshes& meshes, int threads
         throw InputError(messageAt(scene, "/world", *message ? message : thawResultString(made)));
     out.world.reset(raw);
 
-    for (size_t i = 0; i < scene.materials.size(); ++i) {
-        thawMaterialId id{};
-        const thawResult result = thawCreateMaterial(raw, &scene.materials[i].def, &id);
-        if (result != thawResult_ok) refused(scene, placeOf("materials", i), result, raw);
-        out.materials.push_back(id);
-    }
-    for (size_t i = 0; i < scene.colliders.size(); ++i) {
-        const Collider& c = scene.colliders[i];
-        thawColliderType type = thawCollider_mesh;
-        thawVec3 size{};
-        const float s = c.placement.scale;
-        if (c.shape.type == ShapeType::plane) type = thawCollider_plane;
-        if (c.shape.type == ShapeType::box) {
-            type = thawCollider_box;
-            size = {0.5f * s * c.shape.size.x, 0.5f * s * c.shape.size.y, 0.5f * s * c.shape.size.z};
-        }
-        if (c.shape.type == ShapeType::sphere) {
-            type = thawCollider_sphere;
-            size.x = s * c.shape.radius;
-        }
-        thawColliderDef d;
-        thawInitColliderDef(&d, type);
-        d.position = c.placement.position;
-        d.rotation = c.placement.rotation;
-        if (type == thawCollider_box) d.size = size;
-        if (type == thawCollider_sphere) d.size.x = size.x;
-        if (type == thawCollider_mesh) {
-            d.mesh = meshes.colliders[i].view();
-            d.scale = s;
-        }
-        d.adhesive = c.adhesive;
-        d.slipLength = c.slipLength;
-        d.friction = c.friction;
-        d.temperature = c.temperature;
-        d.contactConductance = c.contactConductance;
-        d.occluder = c.occluder;
-        thawColliderId id{};
-        thawMeshReport report{};
-        const thawResult result = thawCreateCollider(raw, &d, &id, &report);
-        if (result != thawResult_ok) refused(scene, placeOf("colliders", i), result, raw);
-        out.colliders.push_back(id);
-        out.colliderReports.push_back(report);
-    }
-    for (size_t i = 0; i < scene.bodies.size(); ++i) {
-        const Body& b = scene.bodies[i];
-        thawBodyDef d;
-        thawInitBodyDef(&d);
-        d.material = out.materials[size_t(b.material)];
-        d.mesh = meshes.bodies[i].view();
-        d.position = b.placement.position;
-        d.rotation = b.placement.rotation;
-        d.scale = b.placement.scale;
-        d.temperature = b.temperature;
-        std::vector<thawBodyPart> parts;
-        for (size_t k = 0; k < b.parts.size(); ++k) {
-            thawBodyPart& part = parts.emplace_back();
-            part = {};
-            part.material = out.materials[size_t(b.parts[k].material)];
-            part.depth = b.parts[k].depth;
-            if (part.depth <= 0) part.mesh = meshes.parts[i][k].view();
-        }
-        d.parts = parts.data(), d.partCount = int32_t(parts.size());
-        d.anchored = b.anchored;
-        d.coarsestLevel = b.coarsestLevel;
-        thawBodyId id{};
-        thawMeshReport report{};
-        const thawResult result = thawCreateBody(raw, &d, &id, &report);
-        if (result != thawResult_ok) refused(scene, placeOf("bodies", i), result, raw);
-        for (const Paint& paint : b.paint) {
-            thawResult painted = thawResult_ok;
-            if (!std::isnan(paint.temperature))
-                painted = thawBody_PaintTemperature(raw, id, &paint.brush, paint.temperature, nullptr);
-            if (painted == thawResult_ok && !std::isnan(paint.absorptivity))
-                painted = thawBody_PaintAbsorptivity(raw, id, &paint.brush, paint.absorptivity, nullptr);
-            if (painted != thawResult_ok) refused(scene, placeOf("bodies", i), painted, raw);
-        }
-        out.bodies.push_back(id);
-        out.bodyReports.push_back(report);
-    }
-    for (size_t i = 0; i < scene.heatSources.size(); ++i) {
-        const thawHeatSourceDef d = sourceDef(scene.heatSources[i]);
-        thawHeatSourceId id{};
-        const thawResult result = thawCreateHeatSource(raw, &d, &id);
-        if (result != thawResult_ok) refused(scene, placeOf("heatSources", i), result, raw);
-        out.heatSources.push_back(id);
-    }
-    for (size_t i = 0; i < scene.paths.size(); ++i) {
-        const Path& path = scene.paths[i];
-        thawPathDef d = path.def;
-        d.points = path.points.data(), d.pointCount = int32_t(path.points.size());
-        if (path.collider >= 0) d.collider = out.colliders[size_t(path.collider)];
-        thawPathId id{};
-        const thawResult result = thawCreatePath(raw, &d, &id);
-        if (result != thawResult_ok) refused(scene, placeOf("paths", i), result, raw);
-        out.paths.push_back(id);
-    }
-    for (size_t i = 0; i < scene.shapes.size(); ++i) {
-        const FillShape& shape = scene.shapes[i];
-        FillShapeDef fill(shape, meshes.shapes[i]);
-        thawShapeDef& d = fill.def;
-        if (shape.collider >= 0) d.collider = out.colliders[size_t(shape.collider)];
-        thawShapeId id{};
-        const thawResult result = thawCreateShape(raw, &d, &id);
-        if (result != thawResult_ok) refused(scene, placeOf("shapes", i), result, raw);
-        out.shapes.push_back(id);
-    }
+    for (size_t i = 0; i < scene.materials.size(); ++i) out.materials.push_back(createMaterial(raw, scene, i));
+    for (size_t i = 0; i < scene.colliders.size(); ++i)
+        out.colliders.push_back(createCollider(raw, scene, meshes, i, &out.colliderReports.emplace_back()));
+    for (size_t i = 0; i < scene.bodies.size(); ++i)
+        out.bodies.push_back(createBody(raw, scene, meshes, i, out.materials, &out.bodyReports.emplace_back()));
+    for (size_t i = 0; i < scene.heatSources.size(); ++i) out.heatSources.push_back(createSource(raw, scene, i));
+    for (size_t i = 0; i < scene.paths.size(); ++i) out.paths.push_back(createPath(raw, scene, i, out.colliders));
+    for (size_t i = 0; i < scene.shapes.size(); ++i)
+        out.shapes.push_back(createShape(raw, scene, meshes, i, out.colliders));
     return out;
 }
 

@@ -571,7 +571,7 @@ Scene parseScene(const std::string& text, const std::string& file, const std::st
             q.done();
             body.parts.push_back(std::move(out));
         });
-        r.list("paint", 64, [&](const json& paint, const std::string& where) {
+        r.list("paint", 4096, [&](const json& paint, const std::string& where) {
             Reader q(paint, where, file);
             Paint out;
             q.need("position"), q.need("radius");

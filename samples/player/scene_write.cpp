@@ -351,7 +351,7 @@ std::string writeScene(const Scene& scene) {
     return root.end() + "\n";
 }
 
-void saveScene(const Scene& scene, const std::string& path) {
+void saveText(const std::string& text, const std::string& path) {
     std::error_code none;
     const std::filesystem::path place(path);
     view::PartFile file(std::filesystem::is_symlink(place, none) ? std::filesystem::canonical(place, none).string()
@@ -360,11 +360,13 @@ void saveScene(const Scene& scene, const std::string& path) {
     errno = 0;
     std::ofstream out(file.part(), std::ios::binary);
     if (!out) refuse(std::string("cannot be written: ") + std::strerror(errno));
-    out << writeScene(scene);
+    out << text;
     out.close();
     if (!out) refuse(std::string("cannot be written: ") + (errno ? std::strerror(errno) : "the disk may be full"));
     std::string error;
     if (!file.moveToPlace(error)) refuse(error);
 }
+
+void saveScene(const Scene& scene, const std::string& path) { saveText(writeScene(scene), path); }
 
 } // namespace thaw::scene

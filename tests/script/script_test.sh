@@ -36,6 +36,7 @@ expect 2 "unknown preset 'fast'" test --preset fast
 expect 0 'usage: ./thaw build' build -h
 expect 2 "unknown preset 'fast'" build fast
 expect 2 'one preset at most' build release debug
+expect 0 'usage: ./thaw editor' editor --help
 expect 0 'usage: ./thaw gallery' gallery --help
 expect 2 "unknown argument '--fast'" gallery --fast
 expect 2 "no picture 'mona_lisa'" gallery mona_lisa
