@@ -8,7 +8,7 @@
 namespace thaw {
 namespace {
 
-constexpr int kTogether = 1024;
+constexpr int kTogether = 16; // spans
 
 // Materials with their sums, a few of them.
 struct Kinds {
@@ -45,6 +45,23 @@ struct Kinds {
 
 bool same(const SurfaceMesh::Mixture& a, const SurfaceMesh::Mixture& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
+// Of a vertex and its neighbours.
+SurfaceMesh::Mixture meanOf(const MeshCorners& mesh, const SurfaceMesh::Mixture* from, uint32_t v) {
+    const SurfaceMesh::Mixture own = from[v];
+    bool even = own.share[0] == 255;
+    for (uint32_t c = mesh.begins[v]; c < mesh.begins[v + 1]; ++c) even = even && same(from[mesh.next[c]], own);
+    if (even) return own;
+    Kinds kinds; // of whole numbers, so that their order does not count
+    const auto add = [&](const SurfaceMesh::Mixture& m) {
+        for (int k = 0; k < 4 && m.share[k] > 0; ++k) kinds.add(m.material[k], m.share[k]);
+    };
+    add(own);
+    for (uint32_t c = mesh.begins[v]; c < mesh.begins[v + 1]; ++c) add(from[mesh.next[c]]);
+    SurfaceMesh::Mixture mean;
+    kinds.mix(mean);
+    return mean;
+}
+
 } // namespace
 
 void mixOf(const Origins& origins, const uint8_t* materials, SurfaceMesh::Mixture& out) {
@@ -53,32 +70,17 @@ void mixOf(const Origins& origins, const uint8_t* materials, SurfaceMesh::Mixtur
     kinds.mix(out);
 }
 
-void blendMixtures(const MeshCorners& mesh, Array<SurfaceMesh::Mixture>& mixtures, Array<SurfaceMesh::Mixture>& scratch,
-                   int passes, Tasks& tasks) {
-    const bool one = std::all_of(mixtures.begin(), mixtures.end(), [&](const SurfaceMesh::Mixture& m) {
-        return m.share[0] == 255 && m.material[0] == mixtures[0].material[0];
-    });
-    if (one) return;
-    scratch.resizeRaw(mixtures.size());
-    for (int pass = 0; pass < passes; ++pass) {
-        tasks.forBlocks(int(mixtures.size()), kTogether, [&](int begin, int end, int, int) {
-            for (int v = begin; v < end; ++v) {
-                const SurfaceMesh::Mixture& own = mixtures[v];
-                bool even = own.share[0] == 255;
-                for (uint32_t c = mesh.begins[v]; c < mesh.begins[v + 1]; ++c)
-                    even = even && same(mixtures[mesh.next[c]], own);
-                scratch[v] = own;
-                if (even) continue;
-                Kinds kinds; // of whole numbers, so that their order does not count
-                const auto add = [&](const SurfaceMesh::Mixture& m) {
-                    for (int k = 0; k < 4 && m.share[k] > 0; ++k) kinds.add(m.material[k], m.share[k]);
-                };
-                add(own);
-                for (uint32_t c = mesh.begins[v]; c < mesh.begins[v + 1]; ++c) add(mixtures[mesh.next[c]]);
-                kinds.mix(scratch[v]);
-            }
+void MixtureBlender::blend(const MeshCorners& mesh, const Array<Mixture>& mixtures, const Array<MeshSpan>& spans,
+                           Tasks& tasks) {
+    const Mixture* from = mixtures.data();
+    for (Array<Mixture>& pass : passes_) {
+        pass.resizeRaw(mixtures.size());
+        Mixture* to = pass.data();
+        tasks.forBlocks(int(spans.size()), kTogether, [&](int begin, int end, int, int) {
+            for (int s = begin; s < end; ++s)
+                for (uint32_t v = spans[s].vertexBegin; v < spans[s].vertexEnd; ++v) to[v] = meanOf(mesh, from, v);
         });
-        mixtures.swap(scratch);
+        from = to;
     }
 }
 

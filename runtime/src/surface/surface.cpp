@@ -3,7 +3,6 @@
 #include "surface/surface.h"
 
 #include "surface/cubes.h"
-#include "surface/mixtures.h"
 
 #include <algorithm>
 #include <cstring>
@@ -16,10 +15,6 @@ constexpr int kWide = kSide + 1;           // a block's cells have their last co
 constexpr int kPart = kSide / 2;           // of a block's side
 constexpr uint64_t kPartMask = 0x0f0f0f0f; // nodes of a part in a plane
 
-// Shading shows bumps that the outline does not: two passes hide them on disordered particles, three flatten drips.
-constexpr int kNormalPasses = 2;
-constexpr int kMixturePasses = 2; // a particle of another material is as wide as two cells
-
 // Not __builtin_popcountll, which is a call on the baseline.
 uint32_t countBits(uint64_t v) {
     v -= v >> 1 & 0x5555555555555555u;
@@ -28,11 +23,6 @@ uint32_t countBits(uint64_t v) {
 }
 
 int nodeAt(int x, int y, int z) { return (z * kSide + y) * kSide + x; }
-
-// Block at (+1 if bit 0, +1 if bit 1, +1 if bit 2) of another.
-int upper(const SurfaceField::Block& block, int bits) {
-    return block.near[SurfaceField::nearAt(bits & 1, bits >> 1 & 1, bits >> 2 & 1)];
-}
 
 // Where the surface goes through a block: in bit 8 y + x of [z].
 struct Crossings {
@@ -97,10 +87,11 @@ const EdgeCodes kEdgeCodes;
 } // namespace
 
 Surface::Surface(Allocator& allocator)
-    : SurfaceMesh(allocator), field_(allocator), smoother_(allocator), meshes_(allocator), changed_(allocator),
-      vertexPool_(allocator), codePool_(allocator), raw_(allocator), origins_(allocator), rawMixtures_(allocator),
-      rawMaterials_(allocator), rawBodies_(allocator), codes_(allocator), edgeVertices_(allocator), floats_(allocator),
-      ints_(allocator), smoothed_(allocator), unitNormals_(allocator), blended_(allocator), warmth_(allocator) {}
+    : SurfaceMesh(allocator), field_(allocator), links_(allocator), smoother_(allocator), blender_(allocator),
+      meshes_(allocator), changed_(allocator), vertexPool_(allocator), trianglePool_(allocator), marked_(allocator),
+      spans_(allocator), raw_(allocator), origins_(allocator), rawMixtures_(allocator), rawMaterials_(allocator),
+      rawBodies_(allocator), codes_(allocator), edgeVertices_(allocator), floats_(allocator), ints_(allocator),
+      warmth_(allocator) {}
 
 void Surface::drop() {
     clear();
@@ -114,16 +105,11 @@ void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, 
         const bool otherShape = change != SurfaceField::Change::nothing || smoothing != smoothing_;
         if (!keepWarmth(input) && !otherShape) return;
         if (otherShape) {
+            const bool all = change != SurfaceField::Change::blocks || smoothing != smoothing_;
             smoothing_ = -1;
             if (change != SurfaceField::Change::nothing)
                 meshBlocks(input, change == SurfaceField::Change::everything, tasks);
-            assemble(tasks);
-            smoother_.connect(smoothed_.size(), indices);
-            blendMixtures(smoother_.corners(), mixtures, blended_, kMixturePasses, tasks);
-            smoother_.smooth(smoothed_, smoothing, tasks);
-            smoother_.normals(smoothed_, unitNormals_, kNormalPasses, tasks);
-            for (size_t v = 0; v < smoothed_.size(); ++v)
-                positions[v] = smoothed_[v].xyz(), normals[v] = unitNormals_[v].xyz();
+            finishShape(all || smoothing > MeshSmoother::kKept, smoothing, tasks);
             smoothing_ = smoothing;
         }
         setWarmth(tasks);
@@ -137,7 +123,7 @@ void Surface::extract(const SurfaceInput& input, float cellSize, int smoothing, 
 // Meshes the blocks that have changed.
 void Surface::meshBlocks(const SurfaceInput& input, bool all, Tasks& tasks) {
     const size_t slots = size_t(field_.slotCount());
-    if (all) meshes_.clear(), vertexPool_.clear(), codePool_.clear();
+    if (all) meshes_.clear(), vertexPool_.clear(), trianglePool_.clear(), links_.clear();
     meshes_.resize(slots);
     edgeVertices_.resizeRaw(slots * 3 * kNodes);
     if (!all && field_.rowsMoved()) followRows();
@@ -146,23 +132,26 @@ void Surface::meshBlocks(const SurfaceInput& input, bool all, Tasks& tasks) {
     for (size_t slot = 0; slot < slots; ++slot) {
         const SurfaceField::Block& block = field_.block(int(slot));
         if (block.changed) changed_.push(int32_t(slot)), most = std::max(most, block.around);
-        if (!block.alive) meshes_[slot].vertexCount = meshes_[slot].codeCount = 0;
+        meshes_[slot].moved = false;
+        if (!block.alive) meshes_[slot].vertexCount = meshes_[slot].triangleCount = 0;
     }
     tasks.forBlocks(int(changed_.size()), 4, [&](int begin, int end, int, int) {
         for (int k = begin; k < end; ++k) count(changed_[k]);
     });
-    for (BlockMesh& mesh : meshes_)
-        vertexPool_.fit(mesh.vertices, mesh.vertexCount), codePool_.fit(mesh.codes, mesh.codeCount);
+    for (BlockMesh& mesh : meshes_) {
+        vertexPool_.fit(mesh.vertices, mesh.vertexCount + (mesh.vertexCount > 0));
+        trianglePool_.fit(mesh.triangles, mesh.triangleCount);
+    }
     const size_t vertices = vertexPool_.size();
     raw_.resizeRaw(vertices), origins_.resizeRaw(vertices), rawMixtures_.resizeRaw(vertices);
     rawMaterials_.resizeRaw(vertices), rawBodies_.resizeRaw(vertices);
-    codes_.resizeRaw(codePool_.size());
+    codes_.resizeRaw(3 * trianglePool_.size());
     stride_ = most + 8;
     floats_.resizeRaw(size_t(tasks.workerCount()) * OriginFinder::kFloats * stride_);
     ints_.resizeRaw(size_t(tasks.workerCount()) * OriginFinder::kInts * stride_);
     tasks.forBlocks(int(changed_.size()), 4, [&](int begin, int end, int, int worker) {
         for (int k = begin; k < end; ++k)
-            if (meshes_[changed_[k]].vertexCount + meshes_[changed_[k]].codeCount) emit(changed_[k], input, worker);
+            if (meshes_[changed_[k]].vertexCount + meshes_[changed_[k]].triangleCount) emit(changed_[k], input, worker);
     });
     blocksMeshed_ += int64_t(changed_.size());
 }
@@ -179,17 +168,19 @@ void Surface::followRows() {
 
 void Surface::count(int slot) {
     BlockMesh& mesh = meshes_[slot];
-    mesh.vertexCount = mesh.codeCount = 0;
-    const Crossings crossings(field_, slot);
-    if (!crossings.any) return;
-    for (const auto& axis : crossings.edges)
-        for (uint64_t plane : axis) mesh.vertexCount += countBits(plane);
-    const CubeCases& cases = cubeCases();
-    crossings.forCells([&](int, int, int, unsigned corners) { mesh.codeCount += 3u * cases.triangleCount[corners]; });
+    uint32_t vertices = 0, triangles = 0;
+    if (const Crossings crossings(field_, slot); crossings.any) {
+        for (const auto& axis : crossings.edges)
+            for (uint64_t plane : axis) vertices += countBits(plane);
+        const CubeCases& cases = cubeCases();
+        crossings.forCells([&](int, int, int, unsigned corners) { triangles += cases.triangleCount[corners]; });
+    }
+    mesh.moved = mesh.vertexCount != vertices || mesh.triangleCount != triangles;
+    mesh.vertexCount = vertices, mesh.triangleCount = triangles;
 }
 
 void Surface::emit(int slot, const SurfaceInput& input, int worker) {
-    const BlockMesh& mesh = meshes_[slot];
+    BlockMesh& mesh = meshes_[slot];
     const Crossings crossings(field_, slot);
     OriginFinder finder(field_, floats_.data() + size_t(worker) * OriginFinder::kFloats * stride_,
                         ints_.data() + size_t(worker) * OriginFinder::kInts * stride_, stride_);
@@ -222,22 +213,31 @@ void Surface::emit(int slot, const SurfaceInput& input, int worker) {
     }
 
     const CubeCases& cases = cubeCases();
-    uint16_t* out = codes_.data() + mesh.codes.begin;
+    uint16_t* out = codes_.data() + 3 * size_t(mesh.triangles.begin);
+    const auto write = [&](int code) {
+        mesh.moved |= *out != code;
+        *out++ = uint16_t(code);
+    };
     crossings.forCells([&](int x, int y, int z, unsigned corners) {
         const uint8_t* triangles = cases.triangles[corners];
         const int count = 3 * cases.triangleCount[corners];
         if (std::max({x, y, z}) < kSide - 1) {
             const int cell = nodeAt(x, y, z);
-            for (int k = 0; k < count; ++k) *out++ = uint16_t(cell + kEdgeCodes.fromCell[triangles[k]]);
+            for (int k = 0; k < count; ++k) write(cell + kEdgeCodes.fromCell[triangles[k]]);
             return;
         }
         for (int k = 0; k < count; ++k) {
             const int edge = triangles[k], corner = cases.edgeStart[edge];
             const int ex = x + (corner & 1), ey = y + (corner >> 1 & 1), ez = z + (corner >> 2);
             const int owner = ex >> 3 | ey >> 3 << 1 | ez >> 3 << 2;
-            *out++ = uint16_t((owner * 4 + edge / 4) * kNodes + nodeAt(ex & 7, ey & 7, ez & 7));
+            write((owner * 4 + edge / 4) * kNodes + nodeAt(ex & 7, ey & 7, ez & 7));
         }
     });
+    const Mixture* mixture = rawMixtures_.data() + mesh.vertices.begin;
+    const bool plain = mesh.vertexCount > 0 && std::all_of(mixture, mixture + mesh.vertexCount, [&](const Mixture& m) {
+                           return m.share[0] == 255 && m.material[0] == mixture->material[0];
+                       });
+    mesh.plain = plain ? mixture->material[0] : -1;
 }
 
 void Surface::emitVertex(int slot, int x, int y, int z, int axis, const OriginFinder& finder, const SurfaceInput& input,
@@ -245,7 +245,7 @@ void Surface::emitVertex(int slot, int x, int y, int z, int axis, const OriginFi
     const SurfaceField::Block& block = field_.block(slot);
     int next[3] = {x, y, z};
     ++next[axis];
-    const int other = upper(block, (next[0] == kSide) | (next[1] == kSide) << 1 | (next[2] == kSide) << 2);
+    const int other = MeshLinks::upper(block, (next[0] == kSide) | (next[1] == kSide) << 1 | (next[2] == kSide) << 2);
     const float fill = field_.value(slot, nodeAt(x, y, z));
     const float nextFill =
         other < 0 ? 0 : field_.value(other, nodeAt(next[0] % kSide, next[1] % kSide, next[2] % kSide));
@@ -267,48 +267,90 @@ void Surface::emitVertex(int slot, int x, int y, int z, int axis, const OriginFi
         if (origins.share[k] > origins.share[nearest]) nearest = k;
         oneMaterial &= input.materials[origins.row[k]] == input.materials[origins.row[0]];
     }
-    raw_[to] = {p.x, p.y, p.z, SurfaceField::mobility(company)};
+    const Vec4 own{p.x, p.y, p.z, SurfaceField::mobility(company)};
     rawMaterials_[to] = input.materials[origins.row[nearest]];
     rawBodies_[to] = input.bodies[origins.row[nearest]];
-    if (oneMaterial)
-        rawMixtures_[to] = {{input.materials[origins.row[0]]}, {255}};
-    else
-        mixOf(origins, input.materials, rawMixtures_[to]);
+    Mixture mixture{{input.materials[origins.row[0]]}, {255}};
+    if (!oneMaterial) mixOf(origins, input.materials, mixture);
+    BlockMesh& mesh = meshes_[slot];
+    mesh.moved = mesh.moved || std::memcmp(&raw_[to], &own, sizeof own) != 0 ||
+                 std::memcmp(&rawMixtures_[to], &mixture, sizeof mixture) != 0;
+    raw_[to] = own, rawMixtures_[to] = mixture;
+}
+
+// A vertex shows in another's position, normal and mixture over less than a block: those in blocks that are not next to
+// one that has moved are what they would be anew, after each step.
+void Surface::markNear(bool all) {
+    static_assert(MeshSmoother::reach(MeshSmoother::kKept) < kSide && MixtureBlender::kPasses < kSide);
+    marked_.assign(meshes_.size(), all);
+    if (!all)
+        for (int32_t slot : field_.order())
+            if (meshes_[slot].moved)
+                for (int32_t near : field_.block(slot).near)
+                    if (near >= 0) marked_[near] = 1;
+    spans_.clear();
+    for (int32_t slot : field_.order())
+        if (marked_[slot] && meshes_[slot].vertexCount + meshes_[slot].triangleCount > 0)
+            spans_.push(meshes_[slot].span());
+}
+
+// Of one material there is nothing to blend.
+void Surface::blend(Tasks& tasks) {
+    int material = -1;
+    bool one = true;
+    for (int32_t slot : field_.order())
+        if (const BlockMesh& mesh = meshes_[slot]; mesh.vertexCount > 0) {
+            one = one && mesh.plain >= 0 && (material < 0 || mesh.plain == material);
+            material = mesh.plain;
+        }
+    if (!one && !blended_) markNear(true);
+    if (!one) blender_.blend(links_.corners(), rawMixtures_, spans_, tasks);
+    blended_ = !one;
+}
+
+// Smooths what has moved, and what is near it.
+void Surface::finishShape(bool all, int smoothing, Tasks& tasks) {
+    markNear(all);
+    links_.link(field_, meshes_, codes_, edgeVertices_, marked_, tasks);
+    smoother_.smooth(links_.corners(), links_.points(), raw_, trianglePool_.size(), spans_, smoothing, tasks);
+    blend(tasks);
+    assemble(tasks);
 }
 
 // Puts what the blocks have side by side.
 void Surface::assemble(Tasks& tasks) {
     const Array<int32_t>& order = field_.order();
-    uint32_t vertexSum = 0, codeSum = 0;
+    uint32_t vertexSum = 0, triangleSum = 0;
     for (int32_t slot : order) {
         BlockMesh& mesh = meshes_[slot];
-        mesh.vertexBegin = vertexSum, mesh.codeBegin = codeSum;
-        vertexSum += mesh.vertexCount, codeSum += mesh.codeCount;
+        mesh.vertexBegin = vertexSum, mesh.triangleBegin = triangleSum;
+        vertexSum += mesh.vertexCount, triangleSum += mesh.triangleCount;
     }
-    positions.resizeRaw(vertexSum), normals.resizeRaw(vertexSum), smoothed_.resizeRaw(vertexSum);
+    positions.resizeRaw(vertexSum), normals.resizeRaw(vertexSum);
     temperatures.resizeRaw(vertexSum), liquidFractions.resizeRaw(vertexSum);
     materials.resizeRaw(vertexSum), bodies.resizeRaw(vertexSum), mixtures.resizeRaw(vertexSum);
-    indices.resizeRaw(codeSum);
+    indices.resizeRaw(3 * triangleSum);
     tasks.forBlocks(int(order.size()), 16, [&](int begin, int end, int, int) {
         for (int b = begin; b < end; ++b) {
             const BlockMesh& mesh = meshes_[order[b]];
-            const auto copy = [&](const auto& from, auto& to) {
-                std::copy_n(from.data() + mesh.vertices.begin, mesh.vertexCount, to.data() + mesh.vertexBegin);
-            };
-            copy(raw_, smoothed_), copy(rawMaterials_, materials), copy(rawBodies_, bodies);
-            copy(rawMixtures_, mixtures);
-            if (mesh.codeCount == 0) continue;
-            const uint16_t* edges[8];
-            uint32_t firsts[8];
+            const uint32_t first = mesh.vertices.begin;
+            for (uint32_t k = 0; k < mesh.vertexCount; ++k) {
+                positions[mesh.vertexBegin + k] = smoother_.positions()[first + k].xyz();
+                normals[mesh.vertexBegin + k] = smoother_.normals()[first + k].xyz();
+            }
+            std::copy_n(rawMaterials_.data() + first, mesh.vertexCount, materials.data() + mesh.vertexBegin);
+            std::copy_n(rawBodies_.data() + first, mesh.vertexCount, bodies.data() + mesh.vertexBegin);
+            std::copy_n((blended_ ? blender_.mixtures() : rawMixtures_.data()) + first, mesh.vertexCount,
+                        mixtures.data() + mesh.vertexBegin);
+            if (mesh.triangleCount == 0) continue;
+            uint32_t shifts[8];
             for (int n = 0; n < 8; ++n) {
-                const int owner = upper(field_.block(order[b]), n);
-                edges[n] = owner < 0 ? nullptr : edgeVertices_.data() + size_t(owner) * 3 * kNodes;
-                firsts[n] = owner < 0 ? 0 : meshes_[owner].vertexBegin;
+                const int owner = MeshLinks::upper(field_.block(order[b]), n);
+                shifts[n] = owner < 0 ? 0 : meshes_[owner].vertexBegin - meshes_[owner].vertices.begin;
             }
-            for (uint32_t k = 0; k < mesh.codeCount; ++k) {
-                const unsigned code = codes_[mesh.codes.begin + k], owner = code / (4 * kNodes);
-                indices[mesh.codeBegin + k] = firsts[owner] + edges[owner][code % (4 * kNodes)];
-            }
+            const size_t from = 3 * size_t(mesh.triangles.begin), to = 3 * size_t(mesh.triangleBegin);
+            for (size_t k = 0; k < 3 * size_t(mesh.triangleCount); ++k)
+                indices[to + k] = links_.points()[from + k] + shifts[MeshLinks::ownerOf(codes_[from + k])];
         }
     });
 }

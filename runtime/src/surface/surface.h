@@ -6,7 +6,9 @@
 #include "base/tasks.h"
 #include "base/types.h"
 #include "surface/field.h"
+#include "surface/links.h"
 #include "surface/mesh.h"
+#include "surface/mixtures.h"
 #include "surface/origins.h"
 #include "surface/ranges.h"
 #include "surface/smooth.h"
@@ -29,12 +31,6 @@ public:
     int64_t meshedBlocks() const { return blocksMeshed_; } // of them all
 
 private:
-    // What a block brings to the mesh.
-    struct BlockMesh {
-        RangePool::Range vertices, codes; // in the arrays by block below
-        uint32_t vertexCount = 0, codeCount = 0;
-        uint32_t vertexBegin = 0, codeBegin = 0; // in the mesh
-    };
     struct Warmth {
         float temperature, liquidFraction;
     };
@@ -46,15 +42,23 @@ private:
     void emit(int slot, const SurfaceInput& input, int worker);
     void emitVertex(int slot, int x, int y, int z, int axis, const OriginFinder& finder, const SurfaceInput& input,
                     uint32_t to);
+    void markNear(bool all);
+    void blend(Tasks& tasks);
+    void finishShape(bool all, int smoothing, Tasks& tasks);
     void assemble(Tasks& tasks);
     bool keepWarmth(const SurfaceInput& input);
     void setWarmth(Tasks& tasks);
 
     SurfaceField field_;
+    MeshLinks links_;
     MeshSmoother smoother_;
+    MixtureBlender blender_;
+    bool blended_ = false;    // the blender has the mixtures of all blocks
     Array<BlockMesh> meshes_; // by slot
     Array<int32_t> changed_;
-    RangePool vertexPool_, codePool_;
+    RangePool vertexPool_, trianglePool_;
+    Array<uint8_t> marked_; // by slot: blocks near those that have moved
+    Array<MeshSpan> spans_; // theirs
 
     // By block: vertices before smoothing, w their mobility, what they take their attributes from; and the corners of
     // the triangles, as edges: which upper block, axis and node.
@@ -69,8 +73,6 @@ private:
     Array<float> floats_; // for finding origins, by worker
     Array<uint32_t> ints_;
     int stride_ = 0;
-    Array<Vec4> smoothed_, unitNormals_;
-    Array<Mixture> blended_;
     Array<Warmth> warmth_; // of the particles
     int smoothing_ = -1;   // of the mesh that is there
     int made_ = 0;
