@@ -165,6 +165,42 @@ TEST_CASE("surface: a particle is known in whatever row it stands") {
     }
 }
 
+TEST_CASE(
+    "surface: of one material, then of two, smoothed once, twice or not at all: the bits of what is meshed anew") {
+    Dice dice;
+    Wax wax = slab(dice);
+    std::fill(wax.materials.begin(), wax.materials.end(), uint8_t(2));
+    Mesher kept;
+    const auto check = [&](int smoothing) {
+        kept(wax, 0.75f, smoothing);
+        Mesher fresh;
+        CHECK(sameBits(kept.surface, fresh(wax, 0.75f, smoothing)));
+    };
+    const auto move = [&] { wax.positions[0].y -= 0.0001f; };
+    check(1);
+    wax.materials[39] = 1; // a corner
+    check(1);
+    const auto share = [&] {
+        int other = 0;
+        for (const auto& m : kept.surface.mixtures) other += m.material[0] != 2 || m.share[0] != 255;
+        return other;
+    };
+    CHECK(share() > 10);
+    move(), check(1);
+    CHECK(share() > 10);
+    wax.materials[39] = 2;
+    check(1);
+    CHECK(share() == 0);
+    move(), wax.materials[0] = 1, check(1);
+    CHECK(share() > 10);
+    for (int smoothing : {1, 2, 2, 0, 0, 1, 1}) {
+        move();
+        CAPTURE(smoothing);
+        check(smoothing);
+        check(smoothing);
+    }
+}
+
 TEST_CASE("surface: more particles in one place than a sum of fill has room for are no hole") {
     Wax few, many;
     Dice dice;
