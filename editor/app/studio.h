@@ -79,7 +79,8 @@ public:
 
     // ---- what is chosen
 
-    Item selection() const { return selection_; }
+    /// Nothing when it is not there any more.
+    Item selection() const { return exists(scene(), selection_) ? selection_ : Item{}; }
     void select(Item item);
     void removeSelection();
     void duplicateSelection();

@@ -10,7 +10,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui/backends/imgui_impl_glfw.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -46,10 +45,12 @@ App& appOf(GLFWwindow* window) { return *static_cast<App*>(glfwGetWindowUserPoin
 
 void writeControls(const App& app, const std::string& file, std::map<std::string, Controls::Place>& last) {
     if (app.controls().all() == last) return;
-    nlohmann::json j = nlohmann::json::object();
-    for (const auto& [name, p] : app.controls().all()) j[name] = {p.x, p.y, p.width, p.height};
+    std::string text;
+    for (const auto& [name, p] : app.controls().all())
+        text += std::to_string(int(p.x)) + " " + std::to_string(int(p.y)) + " " + std::to_string(int(p.width)) + " " +
+                std::to_string(int(p.height)) + " " + name + "\n";
     try {
-        scene::saveText(j.dump(0, ' ', false, nlohmann::json::error_handler_t::replace), file);
+        scene::saveText(text, file);
         last = app.controls().all();
     } catch (const std::exception&) {
         // The next frame tries again.

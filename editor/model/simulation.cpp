@@ -190,8 +190,10 @@ struct Simulation::Worker {
             changed = changed || next.particles != orders.particles || next.featureSizes != orders.featureSizes ||
                       next.splats != orders.splats;
             orders = next;
-            if (orders.revision != revision) follow();
-            if (orders.resets != resets) resets = orders.resets, build();
+            if (orders.resets != resets)
+                resets = orders.resets, revision = orders.revision, build();
+            else if (orders.revision != revision)
+                follow();
             if (orders.playing && !was) due = now();
         }
         if (steps != orders.steps) {

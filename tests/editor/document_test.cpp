@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
+#include "hand.h"
 #include "model/document.h"
 
 #include <doctest/doctest.h>
@@ -16,21 +17,6 @@ namespace scene = thaw::scene;
 namespace fs = std::filesystem;
 
 namespace {
-
-class Folder {
-public:
-    Folder() {
-        static std::atomic<int> number{0};
-        root_ =
-            fs::temp_directory_path() / ("thaw-document-" + std::to_string(getpid()) + "-" + std::to_string(number++));
-        fs::create_directories(root_);
-    }
-    ~Folder() { fs::remove_all(root_); }
-    std::string operator/(const std::string& name) const { return (root_ / name).string(); }
-
-private:
-    fs::path root_;
-};
 
 std::string contentOf(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
