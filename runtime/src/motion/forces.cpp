@@ -57,7 +57,7 @@ void Motion::forces(const MotionFrame& f) {
         }
     });
     if (!f.coupling) return;
-    f.coupling->gather(f, trait_.data(), target_.data(), densityFeedback(f.subSteps), wallGradient_.data());
+    f.coupling->gather(f, trait_.data(), target_.data());
     if (f.coupling->any()) f.coupling->settle(f);
 }
 

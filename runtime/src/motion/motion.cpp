@@ -180,7 +180,8 @@ void Motion::begin(const MotionFrame& f) {
                 stiffness = 0, pressure = pressure > 1 ? pressure * kPressureFade : 0;
                 held_[i].w = INFINITY;
             }
-            if (!elastic && p.stiffness[i] > 0 && error < kRescaleBelow)
+            const bool besidePiece = fixed.w > 0 && f.rigid && f.rigid->any();
+            if (!elastic && p.stiffness[i] > 0 && error < (besidePiece ? kRescaleBesidePiece : kRescaleBelow))
                 pressure *= std::min(1.0f, stiffness / p.stiffness[i]);
             p.pressure[i] = pressure, p.stiffness[i] = stiffness;
 

@@ -15,7 +15,10 @@ inline constexpr int kBlock = 32;
 inline constexpr float kGravity = 9.81f;
 
 // Jacobi coefficient at most this many times the bulk value; warm pressure rescaled where the density error is below.
-inline constexpr float kStiffnessCap = 2, kRescaleBelow = 0.3f;
+// That only ever takes pressure away. Melt in the way of a piece that sinks moves and is compressed at once: it loses
+// more than the iterations give, and stays at 35 % (butter in a pan, 4 iterations); so beside pieces only what is not
+// compressed is rescaled.
+inline constexpr float kStiffnessCap = 2, kRescaleBelow = 0.3f, kRescaleBesidePiece = 0;
 
 // Adhesion acts from half a spacing to 4 (fading over the last 1.1): farther than a film is thick, or what leaves it
 // never comes back (33-69 % lost at the support's 2.2).

@@ -18,10 +18,9 @@ void hand(RigidPiece& b, Double3 impulse, Double3 at) {
 
 } // namespace
 
-RigidLiquid::RigidLiquid(Allocator& a)
-    : pairs_(a), near_(a), nearOf_(a), eased_(a), unknowns_(a), group_(a), soft_(a) {}
+RigidLiquid::RigidLiquid(Allocator& a) : pairs_(a), near_(a), nearOf_(a), unknowns_(a), group_(a), soft_(a) {}
 
-void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, const Vec4* moverStart, float feedback, Vec4* wall) {
+void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, const Vec4* moverStart) {
     const Particles& p = f.particles;
     rigid_ = f.rigid;
     pairs_.clear(), near_.clear(), unknowns_.clear(), soft_.clear();
@@ -66,7 +65,7 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, const Vec4* mo
 
     // What a mover lies against. Of several pieces each has its share: melt between two that fly apart would hold on to
     // one of them and to the room: a rod that melts through in flight was off its way by 3 mm/s, 1e-6 so.
-    nearOf_.assign(movers, 0), eased_.assign(movers, 0);
+    nearOf_.assign(movers, 0);
     for (const Pair& q : pairs_) {
         uint32_t& n = nearOf_[q.mover];
         if (n) continue;
@@ -99,14 +98,6 @@ void RigidLiquid::gather(const MotionFrame& f, const Vec4* trait, const Vec4* mo
             if (c.state != SoftContacts::Contact::kOpen)
                 for (Unknown& u : unknowns_) u.springs |= u.slot == c.slot;
     }
-    // Beside a free piece the whole share makes it oscillate and blow up within a second.
-    for (const Unknown& u : unknowns_)
-        for (size_t k = u.firstPair; k < u.endPair; ++k) {
-            Vec4& w = wall[pairs_[k].mover];
-            if (eased_[pairs_[k].mover] || !(w.w > 0)) continue;
-            w.w *= std::min(1.0f, kFeedbackBesidePiece / feedback);
-            eased_[pairs_[k].mover] = 1;
-        }
 }
 
 RigidLiquid::Unknown* RigidLiquid::unknownOf(uint16_t piece) {

@@ -39,9 +39,9 @@ public:
         double factor[6][6]; // Cholesky, of mass and pairs: the exact block
     };
 
-    // After the forces: finds the pairs, and hands over what pressure and cohesion did. trait: see Motion. wall: its
-    // density error in w is fed back less beside a free piece. moverStart: velocities before the sub-step.
-    void gather(const MotionFrame& f, const Vec4* trait, const Vec4* moverStart, float feedback, Vec4* wall);
+    // After the forces: finds the pairs, and hands over what pressure and cohesion did. trait: see Motion. moverStart:
+    // velocities before the sub-step.
+    void gather(const MotionFrame& f, const Vec4* trait, const Vec4* moverStart);
     bool any() const { return !pairs_.empty(); }
     Near* near(size_t mover) { return pairs_.empty() || !nearOf_[mover] ? nullptr : &near_[nearOf_[mover] - 1]; }
     // The unknown of a piece that swims; null for what is held, carried or asleep.
@@ -91,7 +91,6 @@ private:
     Array<Pair> pairs_;
     Array<Near> near_;
     Array<uint32_t> nearOf_; // per mover: index + 1
-    Array<uint8_t> eased_;   // per mover: its density error is fed back less
     Array<Unknown> unknowns_;
     Array<uint32_t> group_;
     SoftContacts soft_;

@@ -29,9 +29,6 @@ inline constexpr double kSolved = 1e-4;
 // Share of a penetration beyond the slop that is taken back in a step, and the most, both in spacings.
 inline constexpr double kRecover = 0.2, kSlop = 0.005, kRecoverMost = 0.2;
 
-// Share of the density error taken back in a step by movers beside a piece that swims.
-inline constexpr float kFeedbackBesidePiece = 0.1f;
-
 // A piece slower than this for so many steps, with something under it, sleeps.
 inline constexpr double kCalmSpeed = 0.005; // m/s
 inline constexpr int kCalmSteps = 30;
