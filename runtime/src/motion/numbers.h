@@ -15,9 +15,9 @@ inline constexpr int kBlock = 32;
 inline constexpr float kGravity = 9.81f;
 
 // Jacobi coefficient at most this many times the bulk value; warm pressure rescaled where the density error is below.
-// That only ever takes pressure away. Melt in the way of a piece that sinks moves and is compressed at once: it loses
-// more than the iterations give, and stays at 35 % (butter in a pan, 4 iterations); so beside pieces only what is not
-// compressed is rescaled.
+// That only ever takes pressure away, and melt that a sinking piece drives along loses more by it than the iterations
+// give: so beside pieces only what is not compressed is rescaled. Butter after 3.5 s in a pan, 4 iterations: mean
+// compression 8.1 % with 0.3 there as well, 1.9 % so.
 inline constexpr float kStiffnessCap = 2, kRescaleBelow = 0.3f, kRescaleBesidePiece = 0;
 
 // Adhesion acts from half a spacing to 4 (fading over the last 1.1): farther than a film is thick, or what leaves it
