@@ -32,7 +32,9 @@ public:
     std::string title() const;
 
     Studio& studio() { return studio_; }
+    const Studio& studio() const { return studio_; }
     Viewport& viewport() { return viewport_; }
+    const Viewport& viewport() const { return viewport_; }
     const Controls& controls() const { return controls_; }
     Dialogs& dialogs() { return dialogs_; }
     /// ms that the panels of the last frame took, without the picture.

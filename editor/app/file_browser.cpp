@@ -122,6 +122,8 @@ void FileBrowser::show() {
     bool accept = !chosen.empty();
     if (!folders_) {
         ImGui::SetNextItemWidth(-1);
+        // A name can be typed at once.
+        if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
         if (ImGui::InputTextWithHint("##name", "file name", &name_, ImGuiInputTextFlags_EnterReturnsTrue))
             accept = true;
         if (ImGui::IsItemEdited()) asksToReplace_ = false;
@@ -129,7 +131,7 @@ void FileBrowser::show() {
     }
     if (!error_.empty()) ImGui::TextColored({1, 0.55f, 0.45f, 1}, "%s", error_.c_str());
     if (asksToReplace_) ImGui::TextColored({1, 0.8f, 0.45f, 1}, "%s is there already", name_.c_str());
-    const char* word = asksToReplace_ ? "Replace it##accept"
+    const char* word = asksToReplace_ ? "Replace it##replace"
                        : saves_       ? "Save##accept"
                        : folders_     ? "Choose##accept"
                                       : "Open##accept";

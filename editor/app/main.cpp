@@ -21,8 +21,8 @@ int main(int count, char** values) {
     command.add_option("--size", options.size, "WIDTHxHEIGHT of the window in pixels; else that of the last time");
     command.add_option(
         "--controls", options.controls,
-        "Write into this file where every control is on the screen, whenever that changes: for scripts that "
-        "drive the window");
+        "Write into this file where every control is on the screen and how things stand, whenever that changes: for "
+        "scripts that drive the window");
     command.add_option("--seconds", options.seconds, "Close after so many seconds, as if asked to; for tests")
         ->check(CLI::PositiveNumber);
     CLI11_PARSE(command, count, values);

@@ -99,6 +99,7 @@ public:
     void seek(int64_t frame);
     /// Set by panels; sent with the next update.
     Orders& orders() { return orders_; }
+    const Orders& orders() const { return orders_; }
     /// Milliseconds that the governor may take; kept in the scene's defaults.
     float budget() const { return scene().defaults.budgetMilliseconds; }
 

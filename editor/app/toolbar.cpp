@@ -29,6 +29,12 @@ constexpr Entry kEntries[] = {
 
 } // namespace
 
+const char* toolName(Tool tool) {
+    for (const Entry& entry : kEntries)
+        if (entry.tool == tool) return entry.label;
+    return "";
+}
+
 void showToolbar(Studio& studio) {
     for (const Entry& entry : kEntries) {
         if (ui::choice((std::string(entry.label) + "##tool " + entry.label).c_str(), studio.tool == entry.tool,

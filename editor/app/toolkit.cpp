@@ -91,7 +91,10 @@ const char* ToolKit::help(Tool tool) {
 }
 
 std::optional<Hit> ToolKit::under(Studio& studio, const Lens& lens, ImVec2 at) const {
-    return studio.picker().cast(lens.ray(at));
+    std::optional<Hit> hit = studio.picker().cast(lens.ray(at));
+    // The picture may be older than the last edit.
+    if (hit && !exists(studio.scene(), hit->item)) hit->item = {};
+    return hit;
 }
 
 std::optional<ToolKit::Touch> ToolKit::touched(const Studio& studio, const Lens& lens, ImVec2 at) const {
@@ -244,11 +247,14 @@ void ToolKit::drawLine(Studio& studio, const Lens& lens, const Pointer& pointer,
         if (pointer.clickedTwice && studio.selection().kind == (closed ? Kind::shape : Kind::path))
             return insertNode(studio, lens, pointer);
     }
-    const std::optional<Hit> hit = pointer.over || pointer.held ? under(studio, lens, pointer.at) : std::nullopt;
-    if (pointer.pressed && hit)
-        line_ = {hit->point}, lineColliders_ = {hit->item.kind == Kind::collider ? hit->item.index : -1};
+    if (pointer.pressed)
+        if (const std::optional<Hit> hit = under(studio, lens, pointer.at))
+            line_ = {hit->point}, lineColliders_ = {hit->item.kind == Kind::collider ? hit->item.index : -1};
     if (line_.empty()) return;
-    if (pointer.held && hit) {
+    // All the way that it went, however long the last picture took.
+    for (size_t i = 0; i < pointer.trail.size() && pointer.held && !pointer.pressed; ++i) {
+        const std::optional<Hit> hit = under(studio, lens, pointer.trail[i]);
+        if (!hit) continue;
         const float step = std::max(0.7f * studio.scene().world.particleSpacing, 2 * lens.pixelSize(hit->point));
         if (length(hit->point - line_.back()) > step) {
             line_.push_back(hit->point);
@@ -365,19 +371,22 @@ void ToolKit::paint(Studio& studio, const Lens& lens, const Pointer& pointer) {
         if (last_) studio.endGesture(), last_.reset();
         return;
     }
-    const std::optional<Hit> hit = under(studio, lens, pointer.at);
-    if (!hit || hit->item.kind != Kind::body) return;
-    const float radius = studio.tools.brushRadius;
-    if (last_ && length(last_->point - hit->point) < 0.5f * radius) return;
-    last_ = hit;
-    scene::Paint dab;
-    dab.brush = {hit->point, radius, studio.tools.falloff};
-    const bool heat = studio.tool == Tool::temperature;
-    (heat ? dab.temperature : dab.absorptivity) = heat ? studio.tools.paintTemperature : studio.tools.paintAbsorptivity;
-    studio.edit(
-        heat ? "Paint temperature" : "Paint absorptivity",
-        [&](scene::Scene& s) { s.bodies[size_t(hit->item.index)].paint.push_back(dab); },
-        "paint " + std::to_string(strokes_));
+    for (const ImVec2 at : pointer.trail) {
+        const std::optional<Hit> hit = under(studio, lens, at);
+        if (!hit || hit->item.kind != Kind::body) continue;
+        const float radius = studio.tools.brushRadius;
+        if (last_ && length(last_->point - hit->point) < 0.5f * radius) continue;
+        last_ = hit;
+        scene::Paint dab;
+        dab.brush = {hit->point, radius, studio.tools.falloff};
+        const bool heat = studio.tool == Tool::temperature;
+        (heat ? dab.temperature : dab.absorptivity) =
+            heat ? studio.tools.paintTemperature : studio.tools.paintAbsorptivity;
+        studio.edit(
+            heat ? "Paint temperature" : "Paint absorptivity",
+            [&](scene::Scene& s) { s.bodies[size_t(hit->item.index)].paint.push_back(dab); },
+            "paint " + std::to_string(strokes_));
+    }
 }
 
 void ToolKit::wipe(Studio& studio, const Lens& lens, const Pointer& pointer) {

@@ -13,9 +13,13 @@
 
 namespace thaw::editor {
 
+/// As its button has it: "Path".
+const char* toolName(Tool tool);
+
 /// The pointer over the picture in one frame.
 struct Pointer {
     ImVec2 at{0, 0};
+    std::vector<ImVec2> trail;                            // where it was since the last frame, `at` last
     bool over = false;                                    // nothing lies between it and the picture
     bool pressed = false, held = false, released = false; // the left button, begun over the picture
     bool clickedTwice = false;

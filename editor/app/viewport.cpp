@@ -229,6 +229,7 @@ void Viewport::show(Studio& studio) {
         fullMs_ = drawMs_;
     }
 
+    sharp_ = !target_->draft && drawnFrame_ == studio.framesTaken() && same(camera, drawnCamera_);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 high(low.x + size.x, low.y + size.y);
     const float u = float(target_->usedWidth) / float(std::max(target_->image.width, 1)),
@@ -249,6 +250,8 @@ void Viewport::pointer(Studio& studio) {
     const ImGuiIO& io = ImGui::GetIO();
     pointer_ = {};
     pointer_.at = io.MousePos;
+    pointer_.trail = trail;
+    if (pointer_.trail.empty()) pointer_.trail.push_back(pointer_.at);
     pointer_.over = ImGui::IsItemHovered();
     pointer_.shift = io.KeyShift, pointer_.ctrl = io.KeyCtrl;
     const bool active = ImGui::IsItemActive();

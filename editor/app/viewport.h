@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace thaw::editor {
 
@@ -31,6 +32,10 @@ public:
     void focus(const Studio& studio);
     void lookThroughScene(const Studio& studio);
     Lens lens;
+    /// Where the pointer was since the last frame, where that is known.
+    std::vector<ImVec2> trail;
+    /// The picture is the newest, and not a coarse one that stands in.
+    bool sharp() const { return sharp_; }
     /// ms that the last picture took.
     float drawMs() const { return drawMs_; }
     /// ms that all pictures took.
@@ -62,7 +67,7 @@ private:
     std::shared_ptr<const scene::SceneMeshes> stagedMeshes_;
     thawParticleView particles_{};
     uint64_t framedFor_ = 0;
-    bool cut_ = false, dirty_ = true, software_ = false;
+    bool cut_ = false, dirty_ = true, software_ = false, sharp_ = false;
 
     // What the picture shows, and how long it took.
     uint64_t drawnFrame_ = ~0ull;

@@ -18,14 +18,22 @@ public:
         bool operator==(const Place&) const = default;
     };
     void begin() { next_.clear(); }
-    void end() { places_.swap(next_); }
+    void end() {
+        before_.swap(places_);
+        places_.swap(next_);
+    }
     void add(const std::string& name, ImVec2 low, ImVec2 high) {
         next_[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
     }
     const std::map<std::string, Place>& all() const { return places_; }
+    /// Whether it was there in the frame before too: a window that opens takes a frame to find its size.
+    bool still(const std::string& name, const Place& place) const {
+        const auto was = before_.find(name);
+        return was != before_.end() && was->second == place;
+    }
 
 private:
-    std::map<std::string, Place> places_, next_;
+    std::map<std::string, Place> places_, next_, before_;
 };
 
 namespace ui {

@@ -3,6 +3,8 @@
 #include "app/window.h"
 
 #include "app/app.h"
+#include "app/input_queue.h"
+#include "app/report.h"
 #include "app/shell.h"
 
 #include <epoxy/gl.h>
@@ -36,25 +38,62 @@ struct CloseWindow {
     void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 };
 
+/// The clipboard, the shape of the pointer and the size of the window; input comes through the queue.
 struct Backend {
-    explicit Backend(GLFWwindow* window) { ImGui_ImplGlfw_InitForOpenGL(window, true); }
+    explicit Backend(GLFWwindow* window) { ImGui_ImplGlfw_InitForOpenGL(window, false); }
     ~Backend() { ImGui_ImplGlfw_Shutdown(); }
 };
 
-App& appOf(GLFWwindow* window) { return *static_cast<App*>(glfwGetWindowUserPointer(window)); }
+constexpr InputQueue::Modifiers kModifiers{{GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL},
+                                           {GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT},
+                                           {GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT},
+                                           {GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER}};
 
-void writeControls(const App& app, const std::string& file, std::map<std::string, Controls::Place>& last) {
-    if (app.controls().all() == last) return;
-    std::string text;
-    for (const auto& [name, p] : app.controls().all())
-        text += std::to_string(int(p.x)) + " " + std::to_string(int(p.y)) + " " + std::to_string(int(p.width)) + " " +
-                std::to_string(int(p.height)) + " " + name + "\n";
-    try {
-        scene::saveText(text, file);
-        last = app.controls().all();
-    } catch (const std::exception&) {
-        // The next frame tries again.
-    }
+/// What callbacks of the window reach.
+struct Wiring {
+    App& app;
+    InputQueue queue;
+};
+
+Wiring& wiringOf(GLFWwindow* window) { return *static_cast<Wiring*>(glfwGetWindowUserPointer(window)); }
+
+/// The key that has this letter on it: GLFW names keys by where they are on an American keyboard.
+int lettered(int key, int scancode) {
+    if (key < GLFW_KEY_A || key > GLFW_KEY_Z) return key;
+    const char* name = glfwGetKeyName(key, scancode);
+    if (!name || name[1] != '\0') return key;
+    if (name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + (name[0] - 'a');
+    return name[0] >= 'A' && name[0] <= 'Z' ? GLFW_KEY_A + (name[0] - 'A') : key;
+}
+
+void connect(GLFWwindow* window, Wiring& wiring) {
+    glfwSetWindowUserPointer(window, &wiring);
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+        wiringOf(w).queue.moved({float(x), float(y)});
+    });
+    glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+        if (!entered) wiringOf(w).queue.left();
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+        double x = 0, y = 0;
+        glfwGetCursorPos(w, &x, &y);
+        wiringOf(w).queue.moved({float(x), float(y)});
+        wiringOf(w).queue.button(button, action == GLFW_PRESS, glfwGetTime());
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+        wiringOf(w).queue.scrolled({float(x), float(y)});
+    });
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int) {
+        if (action != GLFW_REPEAT) wiringOf(w).queue.key(lettered(key, scancode), action == GLFW_PRESS);
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) { wiringOf(w).queue.text(character); });
+    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+        for (int i = 0; i < count; ++i) wiringOf(w).app.drop(paths[i]);
+    });
+    glfwSetWindowCloseCallback(window, [](GLFWwindow* w) {
+        glfwSetWindowShouldClose(w, GLFW_FALSE);
+        wiringOf(w).app.close();
+    });
 }
 
 } // namespace
@@ -79,25 +118,19 @@ int runWindow(const Studio::Options& studio, const WindowOptions& options, const
     Shell shell;
     const Backend backend(window.get());
     App app(studio);
-    glfwSetWindowUserPointer(window.get(), &app);
-    glfwSetDropCallback(window.get(), [](GLFWwindow* w, int count, const char** paths) {
-        for (int i = 0; i < count; ++i) appOf(w).drop(paths[i]);
-    });
-    glfwSetWindowCloseCallback(window.get(), [](GLFWwindow* w) {
-        glfwSetWindowShouldClose(w, GLFW_FALSE);
-        appOf(w).close();
-    });
+    Wiring wiring{app, {}};
+    connect(window.get(), wiring);
     if (!file.empty()) app.drop(file);
 
     std::string title;
-    std::map<std::string, Controls::Place> noted;
+    std::string noted;
     const double start = glfwGetTime();
     bool asked = false;
     double shown = 0;
     while (!app.closed()) {
         // Nothing to show: input wakes it, and a look ten times a second keeps messages and the simulation's news
         // going.
-        if (app.idle())
+        if (app.idle() && wiring.queue.empty())
             glfwWaitEventsTimeout(0.1);
         else
             glfwPollEvents();
@@ -110,6 +143,8 @@ int runWindow(const Studio::Options& studio, const WindowOptions& options, const
         app.studio().settings.windowHeight = std::clamp(height, 240, 16384);
         shell.beginFrame();
         ImGui_ImplGlfw_NewFrame();
+        wiring.queue.feed(kModifiers);
+        app.viewport().trail = wiring.queue.trail();
         ImGui::NewFrame();
         app.frame();
         int pixelsX = 0, pixelsY = 0;
@@ -117,7 +152,7 @@ int runWindow(const Studio::Options& studio, const WindowOptions& options, const
         shell.render(pixelsX, pixelsY);
         glfwSwapBuffers(window.get());
         if (const std::string now = app.title(); now != title) glfwSetWindowTitle(window.get(), (title = now).c_str());
-        if (!options.controls.empty()) writeControls(app, options.controls, noted);
+        if (!options.controls.empty()) writeReport(app, options.controls, noted);
         if (options.seconds > 0 && !asked && glfwGetTime() - start > options.seconds) asked = true, app.close();
     }
     std::fprintf(stderr, "thaw-editor: panels took at most %.1f ms a frame beside the picture\n",

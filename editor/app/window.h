@@ -10,7 +10,7 @@ namespace thaw::editor {
 
 struct WindowOptions {
     std::string size;     // "1440x900"; "": as it was
-    std::string controls; // file that says where controls are; "": none
+    std::string controls; // file for reportOf(), see report.h; "": none
     double seconds = 0;   // after which it is asked to close; 0: never
 };
 
