@@ -51,7 +51,8 @@ typedef enum thawResult {
     thawResult_outOfMemory,     /* the allocator refused */
     thawResult_capacity,        /* a maximum of the world definition is reached */
     thawResult_badMesh,         /* a mesh that encloses nothing that can be filled; the message says why */
-    thawResult_internal         /* a fault of the library; please report it with the message */
+    thawResult_internal,        /* a fault of the library; please report it with the message */
+    thawResult_badImage         /* an image of a world that cannot be read; the message says why */
 } thawResult;
 
 /* Bits that thawWorld_Step returns. The step always finishes; the bits say what it had to give up. */
@@ -405,8 +406,8 @@ THAW_API thawResult thawCollider_Teleport(thawWorld* world, thawColliderId id, t
 THAW_API thawResult thawCollider_GetTransform(const thawWorld* world, thawColliderId id, thawVec3* position,
                                               thawQuat* rotation);
 
-/* How it touches from the next step on: adhesive, occluder, slipLength and friction as in thawColliderDef. What hangs on
- * it goes on hanging, what sleeps wakes. May be called before every step. */
+/* How it touches from the next step on: adhesive, occluder, slipLength and friction as in thawColliderDef. What hangs
+ * on it goes on hanging, what sleeps wakes. May be called before every step. */
 THAW_API thawResult thawCollider_SetSurface(thawWorld* world, thawColliderId id, bool adhesive, bool occluder,
                                             float slipLength, float friction);
 
@@ -796,7 +797,8 @@ typedef struct thawLedger {
     double controlEnergy;                   /* J, kinetic energy that they gave, < 0: took */
     double controlHeat;                     /* J that shapes took until what is in them set */
     double massError;                       /* |massNow - added + removed + burnt| / added */
-    double energyError; /* |energyNow - (added - removed - burnt + painted + redefined + absorbed + contact - emitted - convected
+    double energyError; /* |energyNow - (added - removed - burnt + painted + redefined + absorbed + contact - emitted -
+                           convected
                            - controlHeat)| / largest sum moved */
 } thawLedger;
 THAW_API void thawWorld_GetLedger(const thawWorld* world, thawLedger* out);
@@ -829,6 +831,41 @@ typedef struct thawProfile {
     float stage[thawStage_count];
 } thawProfile;
 THAW_API void thawWorld_GetProfile(const thawWorld* world, thawProfile* out);
+
+/* ---- images of a world ------------------------------------------------------------------------------------------ */
+
+/* An image holds all that the next step depends on, and what is reported: particles, pieces, bonds, what colliders,
+ * sources, materials, paths and shapes are and where, what steps remember (the shadows that were seen, loads, the
+ * governor of thawBudget_units), ledger and counters. After a restore the steps have the same bits as those that
+ * followed the save, and the state hash is the same. Not in it: hooks, capacities, what the governor of
+ * thawBudget_milliseconds has learnt about this machine, meshes and views. See docs/snapshot.md.
+ *
+ * Meshes of colliders and forms of shapes are large and never change. An image names them, and a full image has them.
+ * The world keeps what an image may name, also when it is destroyed, until thawWorld_ForgetSnapshots. */
+typedef enum thawSnapshotKind {
+    thawSnapshot_world = 0, /* for the world that it was made of */
+    thawSnapshot_full /* with the forms: also for another world of the same particleSpacing that has room for it */
+} thawSnapshotKind;
+/* Bytes that thawWorld_Save would write now; looks at all particles, as that does. 0 without a world or kind. */
+THAW_API size_t thawWorld_GetSnapshotSize(const thawWorld* world, thawSnapshotKind kind);
+/* Writes an image of the world to the caller's buffer of so many bytes. *written, which may be NULL, is how many it
+ * has; at most 140 for each particle, and more for elastic and coarse solid. thawResult_capacity when there is not
+ * enough room: what was written then is no image. Allocates nothing, but for thawSnapshot_full. */
+THAW_API thawResult thawWorld_Save(const thawWorld* world, thawSnapshotKind kind, void* buffer, size_t capacity,
+                                   size_t* written);
+/* Puts the world back to where it was. The image is looked at whole before anything is touched: one that is cut short,
+ * damaged, of another version of the library, of another particleSpacing, with more than the world has room for, or
+ * that names what the world does not have, is refused with thawResult_badImage or thawResult_capacity, and the world
+ * stays as it is to the last bit.
+ * Ids: what was destroyed since is back with its id, what was created since is stale again, and what is created then
+ * gets the ids that it would have had. A world other than the image's has its own thawWorld_GetIdTag in them. A mesh
+ * under way (thawWorld_StartSurface) stays that of its start. */
+THAW_API thawResult thawWorld_Restore(thawWorld* world, const void* image, size_t size);
+/* Frees what is kept only for images older than `oldest`, or for any when that is NULL: such images, unless full, may
+ * be refused from then on. For a ring that has dropped its oldest image, now and then. */
+THAW_API thawResult thawWorld_ForgetSnapshots(thawWorld* world, const void* oldest, size_t size);
+/* `world` in all ids of this world. */
+THAW_API uint16_t thawWorld_GetIdTag(const thawWorld* world);
 
 /* Hash of everything that the next step depends on. Equal for equal inputs and plans at any number of threads. */
 THAW_API uint64_t thawWorld_GetStateHash(const thawWorld* world);

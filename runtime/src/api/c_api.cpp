@@ -412,6 +412,8 @@ const char* thawResultString(thawResult result) {
         return "mesh cannot be filled";
     case thawResult_internal:
         return "internal fault";
+    case thawResult_badImage:
+        return "image cannot be read";
     }
     return "unknown";
 }
@@ -1042,6 +1044,48 @@ void thawWorld_GetCounters(const thawWorld* world, thawCounters* out) {
 void thawWorld_GetProfile(const thawWorld* world, thawProfile* out) {
     if (world && out) *out = world->world.profile;
 }
+
+size_t thawWorld_GetSnapshotSize(const thawWorld* world, thawSnapshotKind kind) {
+    const int k = valueOf(kind);
+    if (!world || (k != thawSnapshot_world && k != thawSnapshot_full)) return 0;
+    try {
+        return world->world.snapshotSize(k == thawSnapshot_full);
+    } catch (...) {
+        return 0;
+    }
+}
+
+thawResult thawWorld_Save(const thawWorld* world, thawSnapshotKind kind, void* buffer, size_t capacity,
+                          size_t* written) {
+    if (written) *written = 0;
+    const int k = valueOf(kind);
+    if (!world || (!buffer && capacity > 0) || (k != thawSnapshot_world && k != thawSnapshot_full))
+        return thawResult_invalidArgument;
+    try {
+        const size_t n = world->world.save(buffer, capacity, k == thawSnapshot_full);
+        if (written) *written = n;
+        return n > 0 ? thawResult_ok : thawResult_capacity;
+    } catch (...) {
+        return thawResult_outOfMemory;
+    }
+}
+
+thawResult thawWorld_Restore(thawWorld* world, const void* image, size_t size) {
+    return guarded(world, [&](World& w, Check& c) {
+        if (!image) return c.fail(thawResult_invalidArgument, "image: is NULL");
+        std::string message;
+        if (const thawResult r = w.restore(image, size, message); r != thawResult_ok) c.fail(r, "%s", message.c_str());
+    });
+}
+
+thawResult thawWorld_ForgetSnapshots(thawWorld* world, const void* oldest, size_t size) {
+    return guarded(world, [&](World& w, Check& c) {
+        std::string message;
+        if (!w.forgetSnapshots(oldest, size, message)) c.fail(thawResult_badImage, "%s", message.c_str());
+    });
+}
+
+uint16_t thawWorld_GetIdTag(const thawWorld* world) { return world ? world->world.tag : uint16_t{0}; }
 
 uint64_t thawWorld_GetStateHash(const thawWorld* world) { return world ? world->world.stateHash() : 0; }
 

@@ -32,7 +32,7 @@ public:
     // How much room a shape has that is new, or another.
     void refill(const ControlFrame& f, size_t shape) { shapes_.refill(f, shape); }
     void forgetShape(Particles& particles, size_t slot) { shapes_.forget(particles, slot); }
-    uint64_t hash(uint64_t h) const { return shapes_.hash(paths_.hash(h)); }
+    void state(StateIo& io, const ShapeForms& forms) { paths_.state(io), shapes_.state(io, forms); }
 
 private:
     Paths paths_;

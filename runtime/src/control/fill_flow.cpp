@@ -347,13 +347,32 @@ Vec3 FillFlow::velocity(Vec3 p) const {
     return (1 - spot.z) * layer(spot.first) + spot.z * layer(spot.first + at(0, 0, 1));
 }
 
-uint64_t FillFlow::hash(uint64_t h) const {
-    h = hashCombine(h, std::bit_cast<uint32_t>(room_));
-    h = hashCombine(h, static_cast<uint64_t>(full_) | static_cast<uint64_t>(open_) << 1);
-    for (const Island& i : islands_) h = hashCombine(h, i.leaks);
-    for (size_t k = 0; k < cells(); ++k)
-        h = hashCombine(h, std::bit_cast<uint32_t>(potential_[k]) | static_cast<uint64_t>(blocked_[k]) << 32);
-    return h;
+void FillFlow::state(StateIo& io) {
+    io(room_, full_, open_, fill_, level_);
+    for (Island& i : islands_) io(i.leaks);
+    for (float& p : potential_) io(p);
+    for (uint8_t& b : blocked_) io(b);
+    // The rest follows from these when it is solved the next time.
+    if (io.restores()) facesStale_ = true, down_ = {INFINITY, 0, 0};
+}
+
+void FillFlow::formState(StateIo& io) {
+    io(flat_, nx_, ny_, nz_, cell_, unit_, origin_);
+    io.block(share_, kMostCells), io.block(island_, kMostCells);
+    size_t islands = io.count(islands_.size(), 0xffff);
+    if (!io.restores()) return;
+    const auto side = [](int n) { return n > 2 && n <= static_cast<int>(kMostCells); };
+    if (!side(nx_) || !side(ny_) || !(flat_ ? nz_ == 1 : side(nz_)) || !(cell_ > 0) || !(unit_ > 0) ||
+        static_cast<double>(nx_) * ny_ * nz_ != static_cast<double>(share_.size()))
+        return io.fail("a flow of another size");
+    if (!island_.empty() && island_.size() != share_.size()) return io.fail("islands of another size");
+    for (const uint16_t i : island_)
+        if (i >= islands) return io.fail("an island that there is not");
+    islands_.assign(islands, {});
+    const size_t n = share_.size();
+    liquid_.assign(n, 0), set_.assign(n, 0), solid_.assign(n, 0), target_.assign(n, 0), potential_.assign(n, 0);
+    conduct_.assign(n, 0), lack_.assign(n, 0), face_.assign(n, {}), velocity_.assign(n, {}), blocked_.assign(n, 0);
+    layer_.assign(n, 0);
 }
 
 } // namespace thaw

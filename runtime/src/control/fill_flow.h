@@ -38,7 +38,9 @@ public:
     bool full() const { return full_; }    // there is more melt than room
     float room() const { return room_; }   // m^3 that it still takes, infinity: any
     bool open() const { return open_; }    // there is room for more
-    uint64_t hash(uint64_t h) const;
+    // What lives on from step to step, of one that was made for its region; and all that making it found.
+    void state(StateIo& io);
+    void formState(StateIo& io);
 
 private:
     // Between which cells a place is: the lowest of them, and how far it is on the way to the next ones.

@@ -142,4 +142,13 @@ bool PathLine::nearest(Vec3 x, Foot& foot) const {
     return true;
 }
 
+void PathLine::state(StateIo& io) {
+    io(bounds_, step_, length_, reach_, hash_);
+    io.block(point_, kMostSteps + 2), io.block(tangent_, kMostSteps + 2);
+    io.list(cells_, kMostSteps + 2, [&](Cell& c) { io(c.key), io.index(c.node, point_.size()); });
+    if (io.restores() && (point_.size() < 2 || tangent_.size() != point_.size() || !(step_ > 0) || !(length_ > 0) ||
+                          !(length_ / step_ < static_cast<float>(point_.size()))))
+        io.fail("a line that cannot be");
+}
+
 } // namespace thaw

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/state_io.h"
 #include "base/types.h"
 
 #include <cstddef>
@@ -26,6 +27,8 @@ public:
 
     float length() const { return length_; }
     uint64_t hash() const { return hash_; } // of what it was made of
+    float reach() const { return reach_; }
+    void state(StateIo& io);
     const std::vector<Vec3>& points() const { return point_; }
     Foot at(float along) const;
     // The nearest place to x within [from, to] m along it.

@@ -72,8 +72,8 @@ bool Paths::capture(const ControlFrame& f, size_t row, Vec3 x) {
         if (!path.on() || (count > 0 && path.priority < priority)) continue;
         const Vec3 at = OwnSpace(path.collider, f.colliders).into(x);
         Foot foot;
-        if (f.particles.along[row] == -static_cast<float>(s + 1) || !path.line.nearest(at, foot) ||
-            foot.along > path.line.length() - kCore * path.radius)
+        if (f.particles.along[row] == -static_cast<float>(s + 1) || !path.line->nearest(at, foot) ||
+            foot.along > path.line->length() - kCore * path.radius)
             continue;
         if (count > 0 && path.priority > priority) count = 0;
         priority = path.priority;
@@ -102,9 +102,9 @@ bool Paths::capture(const ControlFrame& f, size_t row, Vec3 x) {
                 float apart = 0, longest = 0;
                 for (int k = 0; k < forks; ++k) {
                     const Candidate& c = found[fork[k]];
-                    ahead[k] = paths[c.slot].line.at(c.foot.along + look).point;
+                    ahead[k] = paths[c.slot].line->at(c.foot.along + look).point;
                     middle += (1 / static_cast<float>(forks)) * ahead[k];
-                    longest = std::max(longest, paths[c.slot].line.length() - c.foot.along);
+                    longest = std::max(longest, paths[c.slot].line->length() - c.foot.along);
                     for (int l = 0; l < k; ++l) apart = std::max(apart, length(ahead[k] - ahead[l]));
                 }
                 if (apart > stem.radius || look > longest) break;
@@ -155,12 +155,12 @@ void Paths::track(const ControlFrame& f) {
             // Near where it was: a path that crosses itself is followed on.
             const Vec3 at = OwnSpace(path.collider, f.colliders).into(x);
             const float s = p.along[i], r = path.radius;
-            const Foot foot = path.line.nearest(at, s - 0.5f * r, s + r);
+            const Foot foot = path.line->nearest(at, s - 0.5f * r, s + r);
             p.along[i] = foot.along;
             distance_[i] = length(at - foot.point);
-            const float rest = path.line.length() - foot.along;
-            const bool past = rest <= 0 || (rest < kCore * r &&
-                                            dot(at - path.line.at(foot.along + rest).point, foot.tangent) > -0.25f * r);
+            const float rest = path.line->length() - foot.along;
+            const bool past = rest <= 0 || (rest < kCore * r && dot(at - path.line->at(foot.along + rest).point,
+                                                                    foot.tangent) > -0.25f * r);
             if (distance_[i] > kLost * path.reach || past) {
                 own_[i] = {static_cast<float>(slot), 0, 0, past ? 3.0f : 2.0f};
                 p.follows[i] = 0;
@@ -203,13 +203,13 @@ void Paths::steer(const ControlFrame& f) {
         Path& path = paths[s];
         if (!path.alive || !path.enabled) continue;
         double bins[kBins] = {}, along = 0;
-        const float length = path.line.length();
+        const float length = path.line->length();
         const OwnSpace space(path.collider, f.colliders);
         for (size_t i = 0; i < static_cast<size_t>(p.moverCount); ++i) {
             if (p.follows[i] != s + 1) continue;
             const double m = p.velocity[i].w;
             bins[std::min(kBins - 1, static_cast<int>(p.along[i] / length * kBins))] += m;
-            const Foot foot = path.line.at(p.along[i]);
+            const Foot foot = path.line->at(p.along[i]);
             const Vec3 v = p.velocity[i].xyz() - space.velocityAt(p.position[i].xyz());
             along += m * static_cast<double>(dot(v, space.turn(foot.tangent)));
         }
@@ -275,9 +275,9 @@ Paths::Aim Paths::aim(const ControlFrame& f, size_t i) const {
         return true;
     });
     mean = (1 / weight) * mean;
-    const Foot foot = path.line.at(p.along[i]);
+    const Foot foot = path.line->at(p.along[i]);
     const Vec3 t = space.turn(
-        normalizeOr(foot.tangent + path.line.at(foot.along + kLookAhead * path.radius).tangent, foot.tangent));
+        normalizeOr(foot.tangent + path.line->at(foot.along + kLookAhead * path.radius).tangent, foot.tangent));
     Vec3 off = x - space.out(foot.point);
     off -= dot(off, t) * t;
     // Across the surface a stream is as thick as it is, up to a radius, and digs itself in as deep as it likes: nothing
@@ -358,22 +358,36 @@ void Paths::guide(const ControlFrame& f, Vec4* guide) {
     });
 }
 
-uint64_t Paths::hash(uint64_t h) const {
-    for (size_t s = 0; s < paths.size(); ++s) {
-        const Path& p = paths[s];
-        if (!p.alive) continue;
-        const float f[12] = {p.radius,      p.reach, p.strength, p.speed, p.arrivalTime,
-                             p.share,       p.boost, p.asked,    p.bias,  p.startAbsorptivity,
-                             p.beadSpacing, 0};
-        const double d[6] = {p.captured, p.arrived, p.since, p.arrival, p.time, p.phase};
-        uint64_t words[12];
-        static_assert(sizeof words == sizeof f + sizeof d);
-        std::memcpy(words, f, sizeof f), std::memcpy(words + 6, d, sizeof d);
-        h = hashCombine(h, s | static_cast<uint64_t>(p.enabled) << 32 | static_cast<uint64_t>(p.collider) << 33);
-        h = hashCombine(hashCombine(h, p.line.hash()), static_cast<uint32_t>(p.priority));
-        for (const uint64_t w : words) h = hashCombine(h, w);
+void Paths::pathState(StateIo& io, Path& p) {
+    io(p.alive);
+    if (!p.alive) {
+        if (io.restores()) p = {};
+        return;
     }
-    return h;
+    io(p.enabled);
+    io.index(p.collider, io.limits.colliders + 1);
+    io(p.radius, p.reach, p.strength, p.speed, p.arrivalTime, p.share, p.beadSpacing, p.startAbsorptivity, p.priority);
+    io(p.captured, p.arrived, p.since, p.arrival, p.time, p.phase, p.asked, p.boost, p.bias);
+    io.report(p.spilled, p.mass, p.distance, p.front);
+    if (io.hashes()) return io.mix(p.line->hash());
+    uint64_t hash = p.line ? p.line->hash() : 0;
+    io(hash);
+    if (io.saves()) return const_cast<PathLine&>(*p.line).state(io); // which only looks
+    // The line that is there, where it is the same.
+    PathLine read;
+    read.state(io);
+    if (!io.good()) return;
+    for (const Path& other : paths)
+        if (other.line && other.line->hash() == hash && other.line->reach() == read.reach() &&
+            other.line->points().size() == read.points().size()) {
+            p.line = other.line;
+            return;
+        }
+    p.line = std::make_shared<PathLine>(std::move(read));
+}
+
+void Paths::state(StateIo& io) {
+    io.staged(paths, stage_, io.limits.paths, [&](Path& p) { pathState(io, p); });
 }
 
 } // namespace thaw

@@ -6,6 +6,7 @@
 #include "control/frame.h"
 #include "control/path_line.h"
 
+#include <memory>
 #include <vector>
 
 namespace thaw {
@@ -13,7 +14,7 @@ namespace thaw {
 // A path that melt follows: thawPathDef made ready, and what it knows of the melt.
 struct Path {
     bool alive = false, enabled = true;
-    PathLine line;
+    std::shared_ptr<const PathLine> line;
     uint32_t collider = 0; // index + 1 of the one it moves with; 0: it stands still
     float radius = 0, reach = 0, strength = 0, speed = 0, arrivalTime = 0, share = 1, beadSpacing = 0,
           startAbsorptivity = NAN;
@@ -53,7 +54,7 @@ public:
     void guide(const ControlFrame& f, Vec4* guide);
     // Nobody follows this one any more.
     void forget(Particles& particles, size_t slot);
-    uint64_t hash(uint64_t h) const;
+    void state(StateIo& io);
 
 private:
     struct Aim {
@@ -65,7 +66,10 @@ private:
     void countHops(const ControlFrame& f);
     void steer(const ControlFrame& f);
 
-    Array<Vec4> own_, mean_; // of control particles; own_.w < 0: it is none
+    void pathState(StateIo& io, Path& p);
+
+    std::vector<Path> stage_; // of an image that is read
+    Array<Vec4> own_, mean_;  // of control particles; own_.w < 0: it is none
     Array<uint8_t> hops_;
     Array<float> distance_; // per mover, m from what it follows
 };

@@ -102,4 +102,9 @@ float Region::distance(Vec3 x, Vec3& outward) const {
     return grid_.sample({x.x, x.y, 0.5f * grid_.cell}, outward);
 }
 
+void Region::state(StateIo& io) {
+    io(flat_, middle_, u_, v_, n_, bounds_, size_, hash_);
+    grid_.state(io);
+}
+
 } // namespace thaw

@@ -38,6 +38,7 @@ public:
     const Box& bounds() const { return bounds_; } // regional, of the contours or the mesh
     float size() const { return size_; }          // m^2 or m^3
     uint64_t hash() const { return hash_; }
+    void state(StateIo& io);
 
 private:
     bool flat_ = false;

@@ -68,9 +68,9 @@ Shapes::Near Shapes::look(const ControlFrame& f, const std::vector<Path>& paths,
     if (own) {
         const Shape& s = shapes[own - 1u];
         if (!s.on()) return {{}, 0, own};
-        const Vec3 at = s.region.into(OwnSpace(s.collider, f.colliders).into(x));
-        const float d = s.region.distance(at, outward);
-        if (d < kLost * s.reach && off(s.region, at) < kLost * s.depth &&
+        const Vec3 at = s.region().into(OwnSpace(s.collider, f.colliders).into(x));
+        const float d = s.region().distance(at, outward);
+        if (d < kLost * s.reach && off(s.region(), at) < kLost * s.depth &&
             (solid(p, i) || !((s.flow.full() || s.closed()) && d > f.spacing)))
             return {outward, d, own};
     }
@@ -85,9 +85,9 @@ Shapes::Near Shapes::look(const ControlFrame& f, const std::vector<Path>& paths,
         if (!s.on() || !s.flow.open() || s.closed() || k + 1 == own || (best.shape && s.priority < priority) ||
             (path && s.priority < pathPriority))
             continue;
-        const Vec3 at = s.region.into(OwnSpace(s.collider, f.colliders).into(x));
-        if (off(s.region, at) > s.depth) continue;
-        const float d = s.region.distance(at, outward);
+        const Vec3 at = s.region().into(OwnSpace(s.collider, f.colliders).into(x));
+        if (off(s.region(), at) > s.depth) continue;
+        const float d = s.region().distance(at, outward);
         if (d > s.reach || (path && s.priority == pathPriority && d > 0)) continue;
         if (best.shape && s.priority == priority && d >= best.distance) continue;
         best = {outward, d, static_cast<uint16_t>(k + 1)}, priority = s.priority;
@@ -144,7 +144,7 @@ void Shapes::track(const ControlFrame& f, std::vector<Path>& paths) {
             s.spilled += m, s.distance += m * static_cast<double>(d), s.astray += solid(p, i) ? 0 : m;
         else
             s.inside += m;
-        if (s.setting && inside && !s.region.flat()) p.flags[i] |= kMoulded;
+        if (s.setting && inside && !s.region().flat()) p.flags[i] |= kMoulded;
     }
     for (size_t k = 0; k < shapes.size(); ++k)
         if (shapes[k].on()) fill(f, k);
@@ -154,19 +154,19 @@ void Shapes::track(const ControlFrame& f, std::vector<Path>& paths) {
 void Shapes::findWalls(const ControlFrame& f, size_t slot, size_t first, size_t stride) {
     Shape& s = shapes[slot];
     const OwnSpace space(s.collider, f.colliders);
-    const float aside = s.region.flat() ? 1.5f * f.spacing : 0;
+    const float aside = s.region().flat() ? 1.5f * f.spacing : 0;
     Box around;
     for (int corner = 0; corner < 8; ++corner) {
         const Box b = s.flow.bounds();
-        around.grow(space.out(s.region.outOf({corner & 1 ? b.upper.x : b.lower.x, corner & 2 ? b.upper.y : b.lower.y,
-                                              corner & 4 ? b.upper.z : b.lower.z})));
+        around.grow(space.out(s.region().outOf({corner & 1 ? b.upper.x : b.lower.x, corner & 2 ? b.upper.y : b.lower.y,
+                                                corner & 4 ? b.upper.z : b.lower.z})));
     }
     around.lower -= Vec3{aside, aside, aside}, around.upper += Vec3{aside, aside, aside};
     walls_.clear();
     for (int c = 0; c < f.colliderCount; ++c)
         if (f.colliders[c].alive && f.colliders[c].bounds().overlaps(around)) walls_.push(&f.colliders[c]);
     const auto walled = [&](Vec3 regional) {
-        const Vec3 x = space.out(s.region.outOf(regional));
+        const Vec3 x = space.out(s.region().outOf(regional));
         Vec3 normal;
         return std::any_of(walls_.begin(), walls_.end(), [&](const Collider* c) { return c->distance(x, normal) < 0; });
     };
@@ -181,15 +181,15 @@ void Shapes::refill(const ControlFrame& f, size_t slot) {
     Shape& s = shapes[slot];
     const OwnSpace space(s.collider, f.colliders);
     s.flow.clear();
-    Box around = s.region.bounds();
+    Box around = s.region().bounds();
     const float margin = s.reach + s.depth;
     around.lower -= Vec3{margin, margin, margin}, around.upper += Vec3{margin, margin, margin};
     // What a drawing lies on takes none of its room.
-    if (s.region.flat()) around.lower.z = s.region.bounds().upper.z, around.upper.z = around.lower.z + s.depth;
+    if (s.region().flat()) around.lower.z = s.region().bounds().upper.z, around.upper.z = around.lower.z + s.depth;
     for (size_t i = 0; i < static_cast<size_t>(p.count); ++i) {
         const bool fixed = solid(p, i), obeys = shapeOf(p.follows[i]) == slot + 1;
         if (!fixed && !obeys) continue;
-        const Vec3 at = s.region.into(space.into(p.position[i].xyz()));
+        const Vec3 at = s.region().into(space.into(p.position[i].xyz()));
         const float volume = p.velocity[i].w / f.materials[p.material[i]].def.density;
         if (!fixed)
             s.flow.addLiquid(at, volume);
@@ -215,7 +215,7 @@ void Shapes::fill(const ControlFrame& f, size_t slot) {
     s.coming += (1 - static_cast<double>(detExp(-f.dt / kComing))) * (s.fresh / static_cast<double>(f.dt) - s.coming);
     s.fresh = 0;
     const bool still =
-        s.thickness > 0 || !s.region.flat() || s.coming * static_cast<double>(kComing) < kHardly * s.mass;
+        s.thickness > 0 || !s.region().flat() || s.coming * static_cast<double>(kComing) < kHardly * s.mass;
     const double strays = (1 - static_cast<double>(s.setFill)) * s.mass;
     if (s.since >= 0 && still && !s.flow.leak() && s.flow.fill() >= s.setFill && s.astray <= strays) {
         if (s.filledAfter < 0) s.filledAfter = s.time - s.since;
@@ -266,9 +266,9 @@ void Shapes::aim(const ControlFrame& f, size_t i, const Guide& guide) const {
     if (!s.on()) return;
     const OwnSpace space(s.collider, f.colliders);
     const Vec3 x = p.position[i].xyz(), moving = space.velocityAt(x);
-    const Vec3 at = s.region.into(space.into(x));
+    const Vec3 at = s.region().into(space.into(x));
     Vec3 outward = fresh_ ? near_[i].outward : Vec3{};
-    const float d = fresh_ ? near_[i].distance : s.region.distance(at, outward);
+    const float d = fresh_ ? near_[i].distance : s.region().distance(at, outward);
     const float spacing = p.position[i].w / kSupport;
     Vec3 v = s.flow.velocity(at);
     float speed = length(v);
@@ -279,7 +279,7 @@ void Shapes::aim(const ControlFrame& f, size_t i, const Guide& guide) const {
     else if (speed > s.speed)
         v = (s.speed / speed) * v;
     if (s.holds() && !leaks && d < kStray * spacing && -d < p.position[i].w) {
-        const Vec3 inward = -space.turn(s.region.direction(outward));
+        const Vec3 inward = -space.turn(s.region().direction(outward));
         guide.rim[i] = {inward.x, inward.y, inward.z, -d};
         if (guide.rimVelocity) guide.rimVelocity[i] = {moving.x, moving.y, moving.z, 0};
     }
@@ -292,21 +292,21 @@ void Shapes::aim(const ControlFrame& f, size_t i, const Guide& guide) const {
     // What is bare at the edge reaches out for the rim: else a layer ends a spacing before it.
     const float toRim = -d - kBareRim * spacing;
     if (toRim > 0 && toRim < kEdge * spacing && p.normal[i].w > 0 && !leaks) {
-        const float bare = dot(p.normal[i].xyz(), space.turn(s.region.direction(outward)));
+        const float bare = dot(p.normal[i].xyz(), space.turn(s.region().direction(outward)));
         const float want = bare > kBare ? std::min(s.speed, toRim / kReturn) : 0, out = dot(v, outward);
         if (want > out) v += (want - out) * outward, speed = length(v);
     }
-    Vec3 target = moving + space.turn(s.region.direction(v));
+    Vec3 target = moving + space.turn(s.region().direction(v));
     float drag = dragOf(s.strength, f.dt);
     // Where nothing is missing it is as loose as a liquid, else the rim could not press it back into its place.
     if (d < (s.holds() ? kStray * spacing : 0))
         drag = std::min(drag, kLoose * f.dt + drag * std::min(1.0f, speed / s.speed));
-    const float far = std::max(d / s.reach, off(s.region, at) / s.depth);
+    const float far = std::max(d / s.reach, off(s.region(), at) / s.depth);
     const float fade = std::clamp((kLost - far) / (kLost - 1), 0.0f, 1.0f);
     Vec3 carried = f.gravity;
-    if (s.region.flat()) {
+    if (s.region().flat()) {
         // Across the surface it is free, but does not fall off.
-        const Vec3 n = space.turn(s.region.normal());
+        const Vec3 n = space.turn(s.region().normal());
         const float fall = dot(f.gravity, n);
         if (fall <= 0) carried -= fall * n, guide.free[i] = {n.x, n.y, n.z, 0};
     }
@@ -323,23 +323,36 @@ void Shapes::guide(const ControlFrame& f, const Guide& guide) {
     fresh_ = false;
 }
 
-uint64_t Shapes::hash(uint64_t h) const {
-    for (size_t k = 0; k < shapes.size(); ++k) {
-        const Shape& s = shapes[k];
-        if (!s.alive) continue;
-        const float v[8] = {s.reach, s.depth, s.thickness, s.strength, s.speed, s.setFill, s.setTime, 0};
-        const double d[6] = {s.captured, s.lost, s.time, s.since, s.filledAfter, s.coming};
-        uint64_t words[10];
-        static_assert(sizeof words == sizeof v + sizeof d);
-        std::memcpy(words, v, sizeof v), std::memcpy(words + 4, d, sizeof d);
-        h = hashCombine(h, k | static_cast<uint64_t>(s.enabled) << 32 | static_cast<uint64_t>(s.sets) << 33 |
-                               static_cast<uint64_t>(s.setting) << 34 | static_cast<uint64_t>(s.collider) << 35);
-        h = hashCombine(hashCombine(h, s.region.hash()), static_cast<uint32_t>(s.priority));
-        h = hashCombine(h, s.wallsLeft);
-        for (const uint64_t w : words) h = hashCombine(h, w);
-        h = s.flow.hash(h);
-    }
-    return h;
+void ShapeForm::state(StateIo& io) {
+    io(key);
+    region.state(io), flow.formState(io);
+    if (io.restores() && region.bounds().empty()) io.fail("a form without extent");
+}
+
+void Shapes::state(StateIo& io, const ShapeForms& forms) {
+    const bool checks = io.checks();
+    io.staged(shapes, stage_, io.limits.shapes, [&](Shape& s) {
+        io(s.alive);
+        if (!s.alive) {
+            if (io.restores()) s = {};
+            return;
+        }
+        uint64_t key = s.made ? s.made->key : 0;
+        io(s.enabled, s.sets, s.setting, s.form, key);
+        io.index(s.collider, io.limits.colliders + 1);
+        io(s.reach, s.depth, s.thickness, s.strength, s.speed, s.setFill, s.setTime, s.priority);
+        io(s.captured, s.lost, s.time, s.since, s.filledAfter, s.coming, s.fresh, s.asleep);
+        io.report(s.walls); // as far as it is another one than the world's, it is in wallsLeft
+        io(s.wallsLeft);
+        io.report(s.mass, s.inside, s.spilled, s.set, s.distance, s.astray);
+        if (checks) {
+            const auto made = forms.find(key);
+            if (!made) return io.fail("the form of a shape is neither in this world any more nor in the image");
+            if (s.made != made || s.flow.cells() != made->flow.cells()) s.flow = made->flow;
+            s.made = made;
+        }
+        s.flow.state(io);
+    });
 }
 
 } // namespace thaw

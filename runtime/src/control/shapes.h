@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/shelf.h"
 #include "control/fill_flow.h"
 #include "control/frame.h"
 #include "control/region.h"
@@ -13,10 +14,20 @@ namespace thaw {
 
 struct Path;
 
+// What a shape shall be filled in, and the cells of its flow as they were made.
+struct ShapeForm {
+    uint64_t key = 0;
+    Region region;
+    FillFlow flow;
+    void state(StateIo& io);
+};
+using ShapeForms = Shelf<ShapeForm>;
+
 // A shape that melt fills: thawShapeDef made ready, and what it knows of the melt.
 struct Shape {
     bool alive = false, enabled = true, sets = true;
-    Region region;
+    std::shared_ptr<const ShapeForm> made;
+    const Region& region() const { return made->region; }
     uint64_t form = 0; // of what the host made it from
     FillFlow flow;
     uint32_t collider = 0; // index + 1 of the one it moves with; 0: it stands still
@@ -35,7 +46,7 @@ struct Shape {
     bool setting = false;                          // it has been full: what is inside is cooled
 
     bool on() const { return alive && enabled && strength > 0; }
-    bool closed() const { return setting && (thickness > 0 || !region.flat()); } // what is outside stays there
+    bool closed() const { return setting && (thickness > 0 || !region().flat()); } // what is outside stays there
     bool holds() const { return on() && strength == 1; }
 };
 
@@ -66,7 +77,7 @@ public:
     void refill(const ControlFrame& f, size_t slot);
     // Nobody obeys this one any more.
     void forget(Particles& particles, size_t slot);
-    uint64_t hash(uint64_t h) const;
+    void state(StateIo& io, const ShapeForms& forms);
 
 private:
     struct Near {
@@ -78,6 +89,7 @@ private:
     void fill(const ControlFrame& f, size_t slot);
     void aim(const ControlFrame& f, size_t row, const Guide& guide) const;
 
+    std::vector<Shape> stage_;     // of an image that is read
     Array<Near> near_;             // per row
     bool fresh_ = false;           // they are of the rows and places of now
     Array<const Collider*> walls_; // near the shape in hand

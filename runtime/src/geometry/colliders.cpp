@@ -186,4 +186,35 @@ void WallFinder::gather(const Collider* colliders, const Box* bounds, int collid
     }
 }
 
+void ColliderForm::state(StateIo& io) {
+    constexpr size_t kMost = size_t{1} << 28;
+    io(key);
+    io.block(mesh.vertices, kMost), io.block(mesh.indices, kMost);
+    io(mesh.bounds, mesh.watertight);
+    for (const uint32_t i : mesh.indices)
+        if (i >= mesh.vertices.size()) return io.fail("a mesh that names a vertex that it does not have");
+    if (mesh.indices.size() % 3 != 0) return io.fail("a mesh with part of a triangle");
+    grid.state(io);
+}
+
+void Collider::state(StateIo& io, const ColliderForms& forms) {
+    io(alive);
+    if (!alive) {
+        if (io.restores()) *this = {};
+        return;
+    }
+    io.index(type, thawCollider_mesh + 1);
+    io(transform, size, adhesive, occluder, slipLength, friction, temperature, conductance, form);
+    io(report, kinematic, hasTarget, target);
+    io.report(impulse);
+    if (!io.restores()) return;
+    moves = false, next = transform, shift = {}, turn = {}, rate = 0;
+    grid = nullptr, mesh = nullptr;
+    if (type != thawCollider_mesh) return;
+    if (const auto made = forms.find(form))
+        take(made);
+    else
+        io.fail("the mesh of a collider is neither in this world any more nor in the image");
+}
+
 } // namespace thaw

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/shelf.h"
+#include "base/state_io.h"
 #include "geometry/mesh_fill.h"
 
 #include <algorithm>
@@ -9,6 +11,15 @@
 #include <vector>
 
 namespace thaw {
+
+// What a collider's mesh is made into, in its own space and scaled.
+struct ColliderForm {
+    uint64_t key = 0;
+    CleanMesh mesh;
+    DistanceGrid grid;
+    void state(StateIo& io);
+};
+using ColliderForms = Shelf<ColliderForm>;
 
 // One obstacle as a signed distance, positive outside of it. It stands still, or moves through a sub-step from
 // `transform` by `shift` and `turn`.
@@ -24,6 +35,12 @@ struct Collider {
     float conductance = INFINITY; // W/(m^2 K), of that contact
     std::shared_ptr<const DistanceGrid> grid; // mesh: scaled, but neither turned nor moved
     std::shared_ptr<const CleanMesh> mesh;    // mesh: of the same space, for rays
+    uint64_t form = 0;                        // mesh: the key of both
+    void take(const std::shared_ptr<const ColliderForm>& made) {
+        grid = {made, &made->grid}, mesh = {made, &made->mesh}, form = made->key;
+    }
+    // All that lives from step to step. Forms that are not there are refused.
+    void state(StateIo& io, const ColliderForms& forms);
 
     bool heats() const { return alive && conductance > 0 && std::isfinite(temperature); }
 

@@ -309,4 +309,13 @@ float BrickGrid::sample(Vec3 p, Vec3& gradient) const {
     return d;
 }
 
+void DistanceGrid::state(StateIo& io) {
+    io(origin, cell, nx, ny, nz);
+    io.block(values, size_t{1} << 26);
+    const auto side = [](int n) { return n >= 0 && n < 1 << 20; };
+    if (io.restores() && !(side(nx) && side(ny) && side(nz) && cell >= 0 &&
+                           static_cast<double>(nx) * ny * nz == static_cast<double>(values.size())))
+        io.fail("a grid of another size");
+}
+
 } // namespace thaw

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/state_io.h"
 #include "base/tasks.h"
 #include "base/types.h"
 #include "thaw/thaw.h"
@@ -37,6 +38,7 @@ struct DistanceGrid {
     // the grid's box is met. Infinity and +y when p is not finite or the grid is empty.
     float sample(Vec3 p, Vec3& gradient) const;
     float sample(Vec3 p) const;
+    void state(StateIo& io);
 };
 // Grid that covers the bounds grown by `margin`. cell is enlarged when it would need more than maxNodes nodes.
 DistanceGrid makeDistanceGrid(const CleanMesh& mesh, float cell, float margin, size_t maxNodes, Tasks& tasks);

@@ -22,6 +22,7 @@ struct HeatSource {
     float temperature = 0, emissivity = 1, irradiance = 0; // K, 1, W/m^2
 
     bool operator==(const HeatSource& o) const;
+    void state(StateIo& io);
 };
 
 struct HeatFrame {

@@ -147,7 +147,11 @@ int Heat::parts(const HeatFrame& f, int materialCount, float hottest) {
 Heat::Heat(Allocator& allocator) : impl_(std::make_unique<Impl>(allocator)) {}
 Heat::~Heat() = default;
 
-uint64_t Heat::hash(uint64_t h) const { return impl_->radiation.hash(h); }
+bool Heat::names(uint64_t form) const { return impl_->radiation.names(form); }
+
+void Heat::state(StateIo& io, const ColliderForms& forms, size_t rows, uint64_t surfaceVersion) {
+    impl_->radiation.state(io, forms, rows, surfaceVersion);
+}
 
 const float* Heat::power() const { return impl_->radiation.power(); }
 

@@ -25,9 +25,10 @@ public:
     void loss(const HeatFrame& f);      // settles each surface particle with what it absorbs, emits, convects
     void integrate(const HeatFrame& f); // absorbs if loss() did not; bounds; temperature, liquid fraction
     const HeatStats& stats() const { return stats_; }
-    // Mixes in what lives on beside the particles.
     const float* power() const; // per row, W taken up from the sources, of the last radiation()
-    uint64_t hash(uint64_t h) const;
+    // What lives on beside the particles. forms: of colliders that cast shadows.
+    void state(StateIo& io, const ColliderForms& forms, size_t rows, uint64_t surfaceVersion);
+    bool names(uint64_t form) const; // its state does, of a collider's mesh
 
 private:
     struct Impl;

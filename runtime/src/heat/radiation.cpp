@@ -12,6 +12,7 @@
 #include "base/math.h"
 #include "heat/sources.h"
 #include "heat/visibility.h"
+#include "particles/columns.h"
 
 #include <algorithm>
 #include <array>
@@ -165,15 +166,36 @@ Radiation::~Radiation() = default;
 
 const float* Radiation::power() const { return impl_->power.data(); }
 
-uint64_t Radiation::hash(uint64_t h) const {
-    const Impl& m = *impl_;
-    for (const HeatSource& s : m.known) {
-        h = hashCombine(h, static_cast<uint64_t>(s.alive && s.enabled) << 8 | static_cast<uint64_t>(s.type));
-        for (float v :
-             {s.position.x, s.position.y, s.position.z, s.rotation.x, s.rotation.y, s.rotation.z, s.rotation.w})
-            h = hashCombine(h, std::bit_cast<uint32_t>(v));
+bool Radiation::names(uint64_t form) const { return impl_->visibility && impl_->visibility->names(form); }
+
+void Radiation::state(StateIo& io, const ColliderForms& forms, size_t rows, uint64_t surfaceVersion) {
+    Impl& m = *impl_;
+    io.list(m.known, io.limits.sources, [&](HeatSource& s) { s.state(io); });
+    io(m.ambient, m.settled);
+    io.report(m.surfaceVersion, m.colliderVersion);
+    // Nobody asks for what the next run finds anew; of rows that came or went since, there is nothing to keep.
+    if (!io.hashes()) {
+        const size_t kept =
+            io.count(m.surfaceVersion == surfaceVersion && m.power.size() == rows ? rows : 0, io.limits.particles);
+        if (io.checks()) m.power.reserve(kept);
+        if (io.restores()) m.power.resizeRaw(kept);
+        sparse(io, m.power.data(), kept);
     }
-    return m.visibility ? m.visibility->hash(h) : h;
+    const bool looks = io.flag(m.visibility != nullptr);
+    if (io.reads() && io.good() && looks && !m.visibility) m.visibility = std::make_unique<Visibility>(m.allocator);
+    if (io.restores() && !looks) m.visibility = nullptr;
+    if (looks && io.good()) m.visibility->state(io, forms);
+}
+
+void HeatSource::state(StateIo& io) {
+    io(alive);
+    if (!alive) {
+        if (io.restores()) *this = {};
+        return;
+    }
+    io(position, power, radius, enabled);
+    io.index(type, thawHeatSource_directional + 1);
+    io(rotation, size, temperature, emissivity, irradiance);
 }
 
 bool Radiation::Impl::nothingChanged(const HeatFrame& f) const {

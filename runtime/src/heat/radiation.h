@@ -19,8 +19,9 @@ public:
 
     void run(const HeatFrame& f, HeatStats& stats);
     const float* power() const; // per row, W absorbed, of the last run()
-    // Mixes in what the next run() compares with.
-    uint64_t hash(uint64_t h) const;
+    // What the next run() compares with.
+    void state(StateIo& io, const ColliderForms& forms, size_t rows, uint64_t surfaceVersion);
+    bool names(uint64_t form) const; // its state does, of a collider's mesh
 
 private:
     struct Impl;

@@ -132,6 +132,7 @@ struct Visibility::Impl {
         RTCGeometry instance; // of a mesh
         int at;               // in solids, or in planes
         int index;            // of the collider
+        uint64_t form;        // of a mesh
         bool same(const Collider& c) const {
             return type == c.type && mesh == c.mesh.get() && std::memcmp(&size, &c.size, sizeof size) == 0 &&
                    std::memcmp(&place, &c.transform, sizeof place) == 0;
@@ -152,6 +153,7 @@ struct Visibility::Impl {
     std::vector<Plane> planes;
     uint64_t version = 0;
     bool collidersKnown = false, anySolid = false;
+    std::vector<Collider> stage; // of an image that is read
 
     SphereTree tree;
     Array<Vec4> spheres;  // of the last call
@@ -327,7 +329,7 @@ void Visibility::setColliders(const Collider* colliders, int count, uint64_t ver
     for (int c = 0; c < count; ++c) {
         const Collider& o = colliders[c];
         if (!Impl::shades(o)) continue;
-        Impl::Occluder entry{o.type, o.mesh.get(), o.size, o.transform, nullptr, 0, c};
+        Impl::Occluder entry{o.type, o.mesh.get(), o.size, o.transform, nullptr, 0, c, o.form};
         if (o.type == thawCollider_plane) {
             entry.at = static_cast<int>(m.planes.size());
             m.planes.push_back(Impl::planeOf(o));
@@ -426,22 +428,47 @@ void Visibility::commit() {
     ++meltBuilds_;
 }
 
-uint64_t Visibility::hash(uint64_t h) const {
-    const Impl& m = *impl_;
-    const auto mix = [&](float a, float b) {
-        uint32_t bits[2];
-        std::memcpy(bits, &a, 4), std::memcpy(bits + 1, &b, 4);
-        h = hashCombine(h, static_cast<uint64_t>(bits[0]) << 32 | bits[1]);
-    };
-    for (size_t s = 0; s < m.ids.size(); ++s) {
-        h = hashCombine(h, m.ids[s]);
-        mix(m.spheres[s].x, m.spheres[s].y), mix(m.spheres[s].z, m.spheres[s].w);
+void Visibility::state(StateIo& io, const ColliderForms& forms) {
+    Impl& m = *impl_;
+    io.block(m.spheres, io.limits.particles), io.block(m.ids, io.limits.particles);
+    if (io.restores()) m.meltDirty = true;
+    if (!io.reads()) {
+        size_t n = io.count(m.occluders.size(), m.occluders.size());
+        for (size_t k = 0; k < n; ++k) {
+            Impl::Occluder& o = m.occluders[k];
+            io(o.index, o.type, o.size, o.place, o.form);
+        }
+        return;
     }
-    for (const Impl::Occluder& o : m.occluders) {
-        mix(o.place.position.x, o.place.position.y), mix(o.place.position.z, o.place.rotation.x);
-        mix(o.place.rotation.y, o.place.rotation.z);
+    // As colliders, of which the trees are made again where they are not what they were.
+    const size_t n = io.count(0, io.limits.colliders);
+    m.stage.resize(io.limits.colliders);
+    for (Collider& c : m.stage) c = {};
+    for (size_t k = 0; k < n && io.good(); ++k) {
+        uint32_t index = 0;
+        StateIo::Trial trial(io);
+        io.index(index, io.limits.colliders);
+        if (!io.good()) return;
+        Collider& c = m.stage[index];
+        c.alive = true;
+        io.index(c.type, thawCollider_mesh + 1);
+        io(c.size, c.transform, c.form);
+        if (c.type != thawCollider_mesh) continue;
+        if (const auto made = forms.find(c.form))
+            c.take(made);
+        else
+            io.fail("the mesh of a collider is neither in this world any more nor in the image");
     }
-    return h;
+    if (!io.restores() || !io.good()) return;
+    m.version = ~uint64_t{0};
+    setColliders(m.stage.data(), static_cast<int>(m.stage.size()), m.version - 1);
+    clearStirs();
+}
+
+bool Visibility::names(uint64_t form) const {
+    const auto& all = impl_->occluders;
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Impl::Occluder& o) { return o.type == thawCollider_mesh && o.form == form; });
 }
 
 void Visibility::cast(const Ray* rays, int count, bool* blocked) const {

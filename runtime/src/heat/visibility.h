@@ -53,8 +53,9 @@ public:
     int meltBuilds() const { return meltBuilds_; }
     int colliderBuilds() const { return colliderBuilds_; }
     int colliderMoves() const { return colliderMoves_; }
-    // Mixes in the places that the next call compares with.
-    uint64_t hash(uint64_t h) const;
+    // The places that the next call compares with. When an image is only checked nothing is touched.
+    void state(StateIo& io, const ColliderForms& forms);
+    bool names(uint64_t form) const; // of a collider's mesh
 
 private:
     struct Impl;

@@ -20,7 +20,8 @@ constexpr float kLeastFill = 0.3f;
 Bonds::Bonds(Allocator& a)
     : stiffness(a), rest(a), groupOn(a), bonds_(a), count_(a), calm_(a), pressed_(a), borne_(a), rubbed_(a), fill_(a),
       fillGoal_(a), rowOf_(a), free_(a), state_(a), strain_(a), touched_(a), queue_(a), colliderBounds_(a),
-      strainFit_(a), strainStamp_(a), watchStamp_(a), ownerOf_(a), parents_(a), changed_(a), newBonds_(a) {}
+      strainFit_(a), strainStamp_(a), watchStamp_(a), ownerOf_(a), parents_(a), changed_(a), newBonds_(a),
+      imageSlots_(a) {}
 
 void Bonds::reserve(int particles) {
     const size_t n = static_cast<size_t>(particles) + 1;
@@ -120,29 +121,93 @@ float Bonds::pairStiffness(const Elastic& a, const Elastic& b) {
     return modulus * (a.share * b.share) * (0.5f * (a.inverseFill + b.inverseFill));
 }
 
-uint64_t Bonds::hash(uint64_t h) const {
-    if (live_ == 0) return h;
-    const auto bits = [](float v) {
-        uint32_t u;
-        std::memcpy(&u, &v, sizeof u);
-        return u;
-    };
-    h = hashCombine(h, steps_);
-    for (uint32_t s = 1; s < rowOf_.size(); ++s) {
-        if (calm_[s] == 0) continue;
-        h = hashCombine(h, s | static_cast<uint64_t>(calm_[s]) << 32 | static_cast<uint64_t>(pressed_[s]) << 40);
-        if (const Vec3 b = borne_[s]; dot(b, b) > 0)
-            h = hashCombine(hashCombine(h, bits(b.x) | static_cast<uint64_t>(bits(b.y)) << 32), bits(b.z));
-        if (pressed_[s]) h = hashCombine(h, bits(rubbed_[s]));
-        h = hashCombine(h, bits(fill_[s]) | static_cast<uint64_t>(bits(fillGoal_[s])) << 32);
-        for (int k = 0; k < count_[s]; ++k) {
-            const Bond& b = bondsOf(s)[k];
-            h = hashCombine(h, b.other | static_cast<uint64_t>(bits(b.rest)) << 32);
-            h = hashCombine(h, bits(b.weight));
-        }
+void Bonds::state(StateIo& io, int capacity) {
+    if (io.hashes() && live_ == 0) return;
+    // Slots are taken from the top of free_: below lie those that never were in use, which are the last ones.
+    uint32_t live = static_cast<uint32_t>(live_), used = 0;
+    size_t untouched = 0;
+    if (!io.reads() && rowOf_.size() > 1) {
+        while (untouched < free_.size() && free_[untouched] == rowOf_.size() - 1 - untouched) ++untouched;
+        used = static_cast<uint32_t>(rowOf_.size() - 1 - untouched);
     }
-    // Which slot is taken next.
-    return hashCombine(h, free_.empty() ? 0 : free_[free_.size() - 1]);
+    {
+        StateIo::Trial trial(io);
+        io(live, used);
+    }
+    io(steps_);
+    if (io.reads() && (!io.good() || used > static_cast<uint32_t>(capacity) || live > used))
+        return io.fail("bonds of too many particles");
+    if (io.reads()) untouched = static_cast<size_t>(capacity) - used;
+    const uint32_t slots = used + 1, freed = used - live;
+    io.limits.slots = used;
+    if (io.checks()) {
+        imageLive_ = live;
+        if (used > 0) reserve(capacity), imageSlots_.assign(slots, 0);
+    }
+    if (io.restores()) {
+        live_ = static_cast<int>(live);
+        if (rowOf_.size() > 1) reset(), free_.resizeRaw(untouched);
+    }
+    for (uint32_t k = 0; k < freed && io.good(); ++k) {
+        uint32_t slot = io.reads() ? 0 : free_[untouched + k];
+        StateIo::Trial trial(io);
+        io.index(slot, slots);
+        trial.end();
+        if (io.restores() && rowOf_.size() > 1) free_.push(slot);
+    }
+    uint32_t next = 0; // the slot before the one in hand
+    for (uint32_t k = 0; k < live && io.good(); ++k) {
+        if (!io.reads())
+            for (++next; calm_[next] == 0;) ++next;
+        StateIo::Trial trial(io);
+        const uint32_t before = next;
+        io.index(next, slots);
+        if (!io.good() || (io.restores() && (next == 0 || (k > 0 && next <= before && io.reads())))) {
+            io.fail("bonds out of order");
+            return;
+        }
+        uint8_t count = count_[next], calm = calm_[next], pressed = pressed_[next], touched = touched_[next];
+        io(count, calm);
+        io.index(pressed, kSlips + 1);
+        if (count > kMostMixed || calm == 0) return io.fail("more bonds than a particle has");
+        Vec3 borne = borne_[next];
+        float rubbed = rubbed_[next], fill = fill_[next], goal = fillGoal_[next];
+        io(borne, fill, goal);
+        if (pressed || !io.hashes()) io(rubbed);
+        io.report(touched);
+        Bond own[kMostMixed];
+        Bond* bonds = io.reads() ? own : bondsOf(next);
+        for (int b = 0; b < count; ++b) {
+            io.index(bonds[b].other, slots);
+            io(bonds[b].rest, bonds[b].weight);
+        }
+        trial.end();
+        if (io.checks() && io.good()) imageSlots_[next] = 1;
+        if (!io.restores() || !io.good()) continue;
+        count_[next] = count, calm_[next] = calm, pressed_[next] = pressed, touched_[next] = touched;
+        borne_[next] = borne, rubbed_[next] = rubbed, fill_[next] = fill, fillGoal_[next] = goal;
+        std::copy_n(own, count, bondsOf(next));
+    }
+}
+
+void Bonds::checkSlots(StateIo& io, const uint32_t* slotOfRow, size_t rows) {
+    // 1: in use, 2: and some row has it
+    uint32_t found = 0;
+    for (size_t i = 0; i < rows; ++i) {
+        const uint32_t slot = slotOfRow[i];
+        if (!slot) continue;
+        if (imageLive_ == 0 || imageSlots_[slot] != 1) return io.fail("bonds of a particle that has none");
+        imageSlots_[slot] = 2, ++found;
+    }
+    if (found != imageLive_) io.fail("bonds of no particle");
+}
+
+void Bonds::reset() {
+    const uint32_t n = static_cast<uint32_t>(rowOf_.size());
+    std::fill(count_.begin(), count_.end(), uint8_t{0}), std::fill(calm_.begin(), calm_.end(), uint8_t{0});
+    std::fill(touched_.begin(), touched_.end(), uint8_t{0}), std::fill(rowOf_.begin(), rowOf_.end(), kNoRow);
+    free_.clear();
+    for (uint32_t s = n - 1; s > 0; --s) free_.push(s);
 }
 
 } // namespace thaw

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/state_io.h"
 #include "base/tasks.h"
 #include "base/types.h"
 #include "geometry/colliders.h"
@@ -79,7 +80,9 @@ public:
     void lay(const BondFrame& f);
     // Plastic flow, creep and rupture, at the positions of now.
     void relax(const BondFrame& f);
-    uint64_t hash(uint64_t h) const;
+    // Sets io.limits.slots. Of an image that is checked, checkSlots() then looks whether the rows name the slots.
+    void state(StateIo& io, int capacity);
+    void checkSlots(StateIo& io, const uint32_t* slotOfRow, size_t rows);
     struct Stress {
         float mises;      // Pa, of the virial of its bonds
         float meanStrain; // a third of the change of volume
@@ -182,6 +185,7 @@ private:
     // those within would make up 1.11 times the stiffness of either one, and the layer between 1.26 times. With this
     // both are 1.01: 3/4 of each spring makes the sums of rest^2 those of the lattices.
     static constexpr float kMixed = 0.75f;
+    void reset(); // nobody has a slot
     void mapRows(const Particles& p);
     uint32_t take(Particles& p, uint32_t row);
     void drop(uint32_t slot);
@@ -242,6 +246,8 @@ private:
     Array<Changed> changed_;
     Array<NewBond> newBonds_;
     Kept kept_;
+    Array<uint8_t> imageSlots_; // of an image that is checked: who is in use
+    uint32_t imageLive_ = 0;
 };
 
 } // namespace thaw

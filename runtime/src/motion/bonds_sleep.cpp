@@ -210,7 +210,20 @@ int Bonds::wakeBefore(const BondFrame& f) {
         }
     }
     for (const uint32_t i : queue_) wake(p, i);
-    if (f.rigid && !queue_.empty()) wakePieces(f);
+    // By their boxes: the lists are of the step before.
+    if (f.rigid)
+        for (RigidPiece& b : f.rigid->pieces()) {
+            if (!b.alive || !b.asleep) continue;
+            for (const uint32_t i : queue_) {
+                const Vec3 x = p.position[i].xyz();
+                const float near = kTouched * p.position[i].w / kSupport;
+                if (x.x < b.bounds.lower.x - near || x.x > b.bounds.upper.x + near || x.y < b.bounds.lower.y - near ||
+                    x.y > b.bounds.upper.y + near || x.z < b.bounds.lower.z - near || x.z > b.bounds.upper.z + near)
+                    continue;
+                b.asleep = false, b.calm = 0;
+                break;
+            }
+        }
     return static_cast<int>(queue_.size());
 }
 

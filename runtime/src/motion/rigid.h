@@ -101,7 +101,7 @@ public:
     // Adds to each reporting collider what pieces did to it in the last sub-step.
     void addImpulses(Collider* colliders) const;
 
-    uint64_t hash(uint64_t h) const;
+    void state(StateIo& io); // sets io.limits.pieces
 
 private:
     struct Load { // of a contact in the step before; sorted by (a, other, id)

@@ -65,7 +65,7 @@ public:
     // changed something. Of a mover; null for most.
     bool decideSoft(const MotionFrame& f);
     const SoftContacts::Contact* softOf(size_t mover) const { return soft_.of(mover); }
-    uint64_t hash(uint64_t h) const { return soft_.hash(h); }
+    void state(StateIo& io) { soft_.state(io); }
 
     void press(const MotionFrame& f, const Vec4* point); // after a pressure iteration; w: its change, Pa
     void pushSwept(const MotionFrame& f);                // gives the pieces what stopping fast movers took

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/state_io.h"
 #include "base/types.h"
 
 #include <cmath>
@@ -36,6 +37,8 @@ struct Symmetric3 {
         xy -= mass * d.x * d.y, xz -= mass * d.x * d.z, yz -= mass * d.y * d.z;
     }
 };
+template <> inline constexpr bool kGapless<Double3> = true;
+template <> inline constexpr bool kGapless<Symmetric3> = true;
 inline Double3 operator*(const Symmetric3& a, Double3 v) {
     return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
             a.xz * v.x + a.yz * v.y + a.zz * v.z};

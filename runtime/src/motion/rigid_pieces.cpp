@@ -178,28 +178,38 @@ void Rigid::setVelocities(const MotionFrame& f) {
     });
 }
 
-uint64_t Rigid::hash(uint64_t h) const {
-    const auto add = [&](double v) {
-        uint64_t bits;
-        std::memcpy(&bits, &v, sizeof bits);
-        h = hashCombine(h, bits);
-    };
-    const auto add3 = [&](Double3 v) { add(v.x), add(v.y), add(v.z); };
-    for (const RigidPiece& b : pieces_) {
-        if (!b.alive) continue;
-        const uint64_t flags = static_cast<uint64_t>(b.asleep) | static_cast<uint64_t>(b.fresh) << 1 |
-                               static_cast<uint64_t>(b.lostRows) << 2 | static_cast<uint64_t>(b.carried) << 3 |
-                               static_cast<uint64_t>(b.bedded) << 4 | static_cast<uint64_t>(b.calm) << 8;
-        h = hashCombine(hashCombine(h, flags), b.id);
-        add3(b.center), add3(b.velocity), add3(b.spin), add3(b.restLoad), add3(b.load);
-        add3(b.drag), add3(b.dragSpin);
-    }
-    for (const Load& l : loads_) {
-        h = hashCombine(h, static_cast<uint64_t>(l.a) << 32 | l.other);
-        h = hashCombine(h, l.id);
-        add(l.push), add3(l.rub);
-    }
-    return alive_ ? hashCombine(h, nextId_) : h;
+void Rigid::state(StateIo& io) {
+    io(nextId_, loadStep_);
+    io.limits.pieces = pieces_.size();
+    size_t read = 0;
+    if (io.reads()) io.limits.pieces = kMostPieces; // until they are counted
+    io.list(pieces_, kMostPieces, [&](RigidPiece& b) {
+        ++read;
+        io(b.alive);
+        if (!b.alive) {
+            if (io.restores()) b = {};
+            return;
+        }
+        io(b.asleep, b.fresh, b.lostRows, b.carried, b.bedded, b.calm, b.id, b.center, b.velocity, b.spin);
+        io(b.restLoad, b.load, b.drag, b.dragSpin, b.mass, b.radius, b.inertia, b.inverseInertia, b.bounds);
+        io.report(b.solved, b.restless, b.drowsy, b.first, b.rows, b.linear, b.angular, b.pushed);
+        io.report(b.startVelocity, b.startSpin);
+        if (io.restores() && uint64_t{b.first} + b.rows > io.limits.particles) io.fail("a piece of rows there are not");
+    });
+    if (io.reads()) io.limits.pieces = read;
+    // Whose rows they are is found anew before anybody asks (gather).
+    io.list(loads_, 1u << 24, [&](Load& l) {
+        io.index(l.a, io.limits.pieces);
+        io(l.other, l.id, l.push, l.rub, l.total);
+        const size_t who = l.other & ~(RigidContact::kWall | RigidContact::kHeld);
+        if (io.restores() && who >= (l.other & RigidContact::kWall   ? io.limits.colliders
+                                     : l.other & RigidContact::kHeld ? size_t{1}
+                                                                     : io.limits.pieces))
+            io.fail("a load on nobody");
+    });
+    if (!io.restores()) return;
+    alive_ = 0;
+    for (const RigidPiece& b : pieces_) alive_ += b.alive;
 }
 
 } // namespace thaw

@@ -146,19 +146,12 @@ void SoftContacts::keep(const MotionFrame& f, const Vec4* velocity) {
     std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) { return a.id < b.id; });
 }
 
-uint64_t SoftContacts::hash(uint64_t h) const {
-    const auto bits = [](float v) {
-        uint32_t u;
-        std::memcpy(&u, &v, sizeof u);
-        return static_cast<uint64_t>(u);
-    };
-    for (const Kept& k : kept_) {
-        h = hashCombine(h, k.id | static_cast<uint64_t>(k.piece) << 32);
-        h = hashCombine(h, bits(k.slid.x) | bits(k.slid.y) << 32);
-        h = hashCombine(h, bits(k.slid.z) | bits(k.rub) << 32);
-        h = hashCombine(h, static_cast<uint64_t>(k.state));
-    }
-    return h;
+void SoftContacts::state(StateIo& io) {
+    io.list(kept_, io.limits.particles * 4, [&](Kept& k) {
+        io(k.id, k.piece);
+        io.index(k.state, Contact::kSlips + 1);
+        io(k.slid, k.rub);
+    });
 }
 
 } // namespace thaw

@@ -44,7 +44,7 @@ public:
     bool decide(const MotionFrame& f, const Vec4* movers, const Vec4* rows);
     // Keeps them for the next sub-step, and tells the bonds what they bear.
     void keep(const MotionFrame& f, const Vec4* velocity);
-    uint64_t hash(uint64_t h) const;
+    void state(StateIo& io);
 
 private:
     struct Kept { // by particle and piece

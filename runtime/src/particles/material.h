@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/math.h"
+#include "base/state_io.h"
 #include "thaw/thaw.h"
 
 #include <algorithm>
@@ -13,6 +14,13 @@ namespace thaw {
 //   H < 0: solid, T = Ts + H / cs;  0..L: melting, T from solidus to liquidus;  H > L: liquid, T = Tl + (H - L) / cl.
 // With a melting range and latentHeat 0, the range still needs heat: L is at least the mean specific heat times the
 // range.
+// What a step reads of a definition.
+inline thawMaterialDef stepped(thawMaterialDef d) {
+    d.color = {};
+    if (d.yieldStress == 0) d.flow = thawFlow_bingham;
+    return d;
+}
+
 struct Material {
     thawMaterialDef def{};
     double latent = 0; // J/kg between solidus and liquidus, > 0 or exactly 0 when solidus == liquidus
@@ -24,6 +32,8 @@ struct Material {
         logViscositySolid = detLog(d.viscositySolid), logViscosityLiquid = detLog(d.viscosityLiquid);
     }
     Material() = default;
+    // What a step reads of it is state; how it is shown is a report.
+    void state(StateIo& io);
 
     bool soft() const { return def.youngModulus > 0; }
     double kelvin(double H) const {
@@ -74,5 +84,16 @@ struct Material {
         return mix > 0 ? a * b / mix : 0;
     }
 };
+
+inline void Material::state(StateIo& io) {
+    thawMaterialDef d = io.hashes() ? stepped(def) : def;
+    io(d);
+    if (!io.restores()) return;
+    const bool sound = d.density >= 1 && d.solidus > 0 && d.liquidus >= d.solidus && d.latentHeat >= 0 &&
+                       d.specificHeatSolid >= 1 && d.specificHeatLiquid >= 1 && d.viscositySolid > 0 &&
+                       d.viscosityLiquid > 0 && d.releaseFraction >= d.setFraction;
+    if (!sound) return io.fail("a material that cannot be");
+    *this = Material(d);
+}
 
 } // namespace thaw

@@ -4,6 +4,7 @@
 
 #include "base/kernel.h"
 #include "base/memory.h"
+#include "base/state_io.h"
 #include "particles/particles.h"
 
 namespace thaw {
@@ -21,6 +22,20 @@ struct Reference {
     // Elastic solids bend: their points go with the deformation around them (Bonds::deform), and these are as filled.
     // Empty as long as no elastic body has coarse particles.
     Array<Vec4> home, homeSlope;
+
+    // Sets io.limits.points.
+    void state(StateIo& io) {
+        constexpr size_t kMost = size_t{1} << 27;
+        io.limits.points = io.count(point.size(), kMost);
+        const auto all = [&](Array<Vec4>& a, size_t n) {
+            io.block(a, kMost);
+            if (io.checks() && n != io.lastCount()) io.fail("points of another number");
+        };
+        all(point, io.limits.points), all(slope, io.limits.points);
+        const size_t homes = io.count(home.size(), kMost);
+        if (io.reads() && homes != 0 && homes != io.limits.points) io.fail("points of another number");
+        all(home, homes), all(homeSlope, homes);
+    }
 
     // Mean of the 2^level points from `begin` on.
     Vec3 center(uint32_t begin, int level) const { return mean(point, begin, level); }

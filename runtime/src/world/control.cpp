@@ -53,7 +53,8 @@ thawResult World::setPath(const thawPathDef& d, std::string& message, uint32_t& 
     if (index1 == 0 && !freeSlot(pathSlots, def.maxPaths, "maxPaths", "paths", slot, message))
         return thawResult_capacity;
     const float reach = d.reach > 0 ? d.reach : 2 * d.radius;
-    PathLine line;
+    const auto made = std::make_shared<PathLine>();
+    PathLine& line = *made;
     std::vector<Vec3> points;
     for (int32_t k = 0; k < d.pointCount; ++k) points.push_back({d.points[k].x, d.points[k].y, d.points[k].z});
     if (!line.make(points.data(), points.size(), d.smooth, d.radius, reach, message)) return thawResult_invalidArgument;
@@ -67,7 +68,7 @@ thawResult World::setPath(const thawPathDef& d, std::string& message, uint32_t& 
         pathSlots[slot].take();
         index1 = static_cast<uint32_t>(slot) + 1;
     }
-    path.alive = true, path.enabled = d.enabled, path.line = std::move(line), path.collider = d.collider.index1;
+    path.alive = true, path.enabled = d.enabled, path.line = made, path.collider = d.collider.index1;
     path.radius = d.radius, path.reach = reach, path.strength = d.strength, path.speed = d.speed,
     path.arrivalTime = d.arrivalTime;
     path.share = d.share, path.beadSpacing = d.beadSpacing, path.startAbsorptivity = d.startAbsorptivity,
@@ -77,7 +78,7 @@ thawResult World::setPath(const thawPathDef& d, std::string& message, uint32_t& 
         const size_t k = static_cast<size_t>(i);
         if (particles.follows[k] != slot + 1) continue;
         Foot foot;
-        if (path.line.nearest(OwnSpace(path.collider, colliders.data()).into(particles.position[k].xyz()), foot))
+        if (path.line->nearest(OwnSpace(path.collider, colliders.data()).into(particles.position[k].xyz()), foot))
             particles.along[k] = foot.along;
         else
             particles.follows[k] = 0;
@@ -94,7 +95,7 @@ void World::removePath(uint32_t index) {
 thawPathState World::pathState(uint32_t index) const {
     const Path& p = control_.paths()[index];
     const auto f = [](double v) { return static_cast<float>(v); };
-    return {p.line.length(),  f(p.mass),     f(p.captured), f(p.arrived),
+    return {p.line->length(), f(p.mass),     f(p.captured), f(p.arrived),
             f(p.spilled),     f(p.distance), p.front,       p.arrival < 0 ? NAN : f(p.arrival),
             p.asked + p.boost};
 }
@@ -128,10 +129,10 @@ thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t
         return thawResult_capacity;
     const uint64_t form = formOf(d);
     const bool same = index1 > 0 && shapes[slot].form == form && shapes[slot].collider == d.collider.index1;
-    Region made;
+    const auto made = std::make_shared<ShapeForm>();
     if (!same)
-        if (const thawResult r = makeRegion(d, made, message); r != thawResult_ok) return r;
-    const Region& region = same ? shapes[slot].region : made;
+        if (const thawResult r = makeRegion(d, made->region, message); r != thawResult_ok) return r;
+    const Region& region = same ? shapes[slot].region() : made->region;
     const Vec3 extent = region.bounds().upper - region.bounds().lower;
     const float half = 0.5f * std::max(extent.x, std::max(extent.y, region.flat() ? 0.0f : extent.z));
     const float reach = d.reach > 0 ? d.reach : half;
@@ -142,15 +143,17 @@ thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t
     Shape& s = shapes[slot];
     const bool sets = s.on() && s.setting, anew = !same || s.reach != reach;
     if (anew) {
-        FillFlow flow;
-        flow.make(region, reach, def.particleSpacing);
+        made->flow.make(region, reach, def.particleSpacing);
+        if (same) made->region = region;
+        made->key = hashCombine(hashCombine(made->region.hash(), std::bit_cast<uint32_t>(reach)),
+                                std::bit_cast<uint32_t>(def.particleSpacing));
+        shapeForms_.add(made, saves_);
         if (index1 == 0) {
             s = {};
             shapeSlots[slot].take();
             index1 = static_cast<uint32_t>(slot) + 1;
         }
-        s.flow = std::move(flow);
-        if (!same) s.region = std::move(made), s.form = form;
+        s.flow = made->flow, s.made = made, s.form = form;
         s.setting = false, s.filledAfter = -1;
     }
     const bool otherRoom = anew || s.thickness != d.thickness;
@@ -162,6 +165,7 @@ thawResult World::setShape(const thawShapeDef& d, std::string& message, uint32_t
     if (otherRoom) control_.refill(controlFrame(0), slot), led_ = true;
     if (sets && !s.setting) unmould(slot);
     if (!s.on()) s.mass = s.inside = s.spilled = s.set = s.distance = 0; // also when no other one is on
+    if (anew) pruneForms();
     return thawResult_ok;
 }
 
@@ -190,12 +194,13 @@ void World::removeShape(uint32_t index) {
     control_.forgetShape(particles, index);
     control_.shapes()[index] = {};
     shapeSlots[index].alive = false;
+    pruneForms();
 }
 
 thawShapeState World::shapeState(uint32_t index) const {
     const Shape& s = control_.shapes()[index];
     const auto f = [](double v) { return static_cast<float>(v); };
-    return {s.region.size(),
+    return {s.region().size(),
             f(s.mass),
             f(s.inside),
             f(s.spilled),

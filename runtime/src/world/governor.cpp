@@ -225,15 +225,12 @@ void Governor::learnPrices(const Cost& c) {
     margin_ = std::clamp(margin_, kLeastMargin, kMostMargin);
 }
 
-uint64_t Governor::hash(uint64_t h) const {
-    const float f[3] = {rayUse_, viscosityPerSubStep_, heatWanted_};
-    uint32_t bits[3];
-    std::memcpy(bits, f, sizeof bits);
-    for (const uint32_t v :
-         {bits[0], bits[1], bits[2], static_cast<uint32_t>(quality_), static_cast<uint32_t>(goodFrames_),
-          static_cast<uint32_t>(finest_), static_cast<uint32_t>(tight_), static_cast<uint32_t>(roomy_)})
-        h = hashCombine(h, v);
-    return h;
+void Governor::state(StateIo& io) {
+    io(rayUse_, viscosityPerSubStep_, heatWanted_);
+    io.index(quality_, kLowest + 1);
+    io(goodFrames_);
+    io.index(finest_, 4);
+    io(tight_, roomy_);
 }
 
 } // namespace thaw

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/state_io.h"
 #include "thaw/thaw.h"
 #include "world/plan.h"
 
@@ -47,7 +48,7 @@ public:
         bool heatRan, late, relabelled;
     };
     void learn(const Cost& cost);
-    uint64_t hash(uint64_t h) const; // of fixed prices: all that it remembers
+    void state(StateIo& io); // of fixed prices: all that it remembers
 
     // Iterations that a sub-step does however late it is.
     static constexpr int kLeastViscosity = 3, kLeastPressure = 2;

@@ -10,12 +10,6 @@ namespace {
 
 constexpr double kHottest = 1e5; // K, as in Heat
 
-// What a step reads of it.
-thawMaterialDef stepped(thawMaterialDef d) {
-    d.color = {};
-    if (d.yieldStress == 0) d.flow = thawFlow_bingham;
-    return d;
-}
 bool same(const thawMaterialDef& a, const thawMaterialDef& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 bool sameCurve(const thawMaterialDef& a, const thawMaterialDef& b) {
@@ -33,17 +27,6 @@ double converted(const Material& was, const Material& now, double H, bool unseed
 }
 
 } // namespace
-
-uint64_t World::hashMaterials(uint64_t h) const {
-    for (const Material& m : materials) {
-        const thawMaterialDef d = stepped(m.def);
-        static_assert(sizeof d % sizeof(uint32_t) == 0);
-        uint32_t words[sizeof d / sizeof(uint32_t)];
-        std::memcpy(words, &d, sizeof d);
-        for (const uint32_t w : words) h = hashCombine(h, w);
-    }
-    return h;
-}
 
 thawResult World::setMaterial(uint32_t index, const thawMaterialDef& d, std::string& message) {
     const Material was = materials[index], now(d);

@@ -27,6 +27,7 @@ template <class F> int forPainted(const Particles& p, uint32_t body, const thawB
 // Coarse particles would be painted whole. Those for whose parts there is no room are.
 void World::splitUnder(uint32_t body, const thawBrush& brush) {
     if (!anyCoarse_) return;
+    ensureLists();
     std::vector<uint32_t> touched;
     for (int i = 0; i < particles.count; ++i) {
         const size_t k = static_cast<size_t>(i);

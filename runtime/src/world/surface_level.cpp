@@ -52,4 +52,10 @@ void SurfaceLevel::learn(const Made& made) {
     last_ = now;
 }
 
+void SurfaceLevel::state(StateIo& io) {
+    io.report(demand_, last_);
+    if (!io.hashes()) io.index(level_, kCoarsest + 1);
+    io.report(lastLevel_, roomy_);
+}
+
 } // namespace thaw

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/state_io.h"
+
 #include <cstdint>
 
 namespace thaw {
@@ -26,6 +28,7 @@ public:
         int64_t blocks = 0, vertices = 0; // meshed, in all
     };
     void learn(const Made& made);
+    void state(StateIo& io);
 
 private:
     Prices prices_;

@@ -9,6 +9,7 @@
 #include "neighbors/exposure.h"
 #include "world/parts.h"
 
+#include <bit>
 #include <chrono>
 
 namespace thaw {
@@ -76,6 +77,7 @@ uint32_t World::step(float dt, const thawBudget& budget) {
     const Clock::time_point start = Clock::now();
     profile = {};
     uint32_t status = thawStep_ok;
+    ensureLists();
     if (anchorsFresh_) findAnchors();
     if (toldApart_) startColliders(dt, 0, 1);
     if (const int woken = toldApart_ && anySoft() ? bonds_.wakeBefore(bondFrame(dt)) : 0)
@@ -556,7 +558,7 @@ HeatFrame World::heatFrame(double dt, const thawWork& work) {
     spots_.clear(); // setPath made room
     for (const Path& p : control_.paths())
         if (p.alive && p.enabled && p.startAbsorptivity >= 0) {
-            const Vec3 start = OwnSpace(p.collider, colliders.data()).out(p.line.points().front());
+            const Vec3 start = OwnSpace(p.collider, colliders.data()).out(p.line->points().front());
             spots_.push_back({start, p.radius, p.startAbsorptivity});
         }
     return {particles,
@@ -885,14 +887,24 @@ thawResult World::addCollider(const thawColliderDef& d, thawMeshReport& report, 
     c.slipLength = d.slipLength, c.friction = d.friction, c.report = d.reportImpulse;
     c.temperature = d.temperature, c.conductance = d.contactConductance;
     if (d.type == thawCollider_mesh) {
-        auto mesh = std::make_shared<CleanMesh>();
-        const thawResult r = cleanMesh(d.mesh, {{}, {}, d.scale}, *mesh, message);
-        report = mesh->report;
+        const auto made = std::make_shared<ColliderForm>();
+        const thawResult r = cleanMesh(d.mesh, {{}, {}, d.scale}, made->mesh, message);
+        report = made->mesh.report;
         if (r != thawResult_ok) return r;
+        const std::vector<Vec3>& vertices = made->mesh.vertices;
+        const std::vector<uint32_t>& indices = made->mesh.indices;
+        made->key = hashCombine(checksum(vertices.data(), vertices.size() * sizeof(Vec3)),
+                                checksum(indices.data(), indices.size() * sizeof(uint32_t)));
+        made->key = hashCombine(made->key, std::bit_cast<uint32_t>(def.particleSpacing));
         // Melt feels a wall within four spacings; beyond that a lower bound of the distance is enough.
-        c.grid = std::make_shared<DistanceGrid>(
-            makeDistanceGrid(*mesh, 0.5f * def.particleSpacing, 5 * def.particleSpacing, size_t{8} << 20, tasks));
-        c.mesh = std::move(mesh);
+        std::shared_ptr<const ColliderForm> known = colliderForms_.find(made->key);
+        if (!known) {
+            made->grid = makeDistanceGrid(made->mesh, 0.5f * def.particleSpacing, 5 * def.particleSpacing,
+                                          size_t{8} << 20, tasks);
+            known = made;
+            colliderForms_.add(made, saves_);
+        }
+        c.take(known);
     }
     if (colliders.size() <= slot) colliders.resize(slot + 1), colliderSlots.resize(slot + 1);
     control_.expectColliders(colliders.size());
@@ -918,80 +930,9 @@ void World::removeCollider(uint32_t index) {
     for (int i = 0; i < particles.count; ++i)
         if (particles.anchor[static_cast<size_t>(i)] == index + 1) particles.anchor[static_cast<size_t>(i)] = 0;
     colliderSlots[index].alive = false;
+    pruneForms();
     ++colliderVersion_, ++wallVersion_;
     lookForHold();
-}
-
-uint64_t World::stateHash() const {
-    uint64_t h = 0xcbf29ce484222325ULL;
-    auto bytes = [&](const void* data, size_t size) {
-        const unsigned char* p = static_cast<const unsigned char*>(data);
-        for (; size >= 8; size -= 8, p += 8) {
-            uint64_t w;
-            std::memcpy(&w, p, 8);
-            h = hashCombine(h, w);
-        }
-        uint64_t w = 0;
-        if (size > 0) std::memcpy(&w, p, size);
-        h = hashCombine(h, w ^ size);
-    };
-    const size_t n = static_cast<size_t>(particles.count);
-    // Where no body may be coarse, nobody reads the features.
-    const bool levels = mayBeCoarse();
-#define X(type, name)                                                                                                  \
-    if (levels || !std::is_same_v<type, Feature>) bytes(particles.name.data(), n * sizeof(type));
-    THAW_PARTICLE_FIELDS(X)
-#undef X
-    bytes(&steps_, sizeof steps_);
-    bytes(&heatTimePending_, sizeof heatTimePending_);
-    bytes(&nextId_, sizeof nextId_);
-    bytes(&def.gravity, sizeof def.gravity);
-    bytes(&def.ambientTemperature, sizeof(float)), bytes(&def.convection, sizeof(float));
-    bytes(&def.thermalTimeScale, sizeof(float));
-    for (const HeatSource& s : sources) {
-        if (!s.alive || !s.enabled) continue;
-        const float v[16] = {s.position.x,
-                             s.position.y,
-                             s.position.z,
-                             s.power,
-                             s.radius,
-                             s.rotation.x,
-                             s.rotation.y,
-                             s.rotation.z,
-                             s.rotation.w,
-                             s.size.x,
-                             s.size.z,
-                             s.temperature,
-                             s.emissivity,
-                             s.irradiance,
-                             static_cast<float>(s.type),
-                             static_cast<float>(&s - sources.data())};
-        bytes(v, sizeof v);
-    }
-    bytes(&stepsSinceRelabel_, sizeof stepsSinceRelabel_);
-    h = hashMaterials(h);
-    for (const Collider& c : colliders) {
-        if (!c.heats()) continue;
-        bytes(&c.temperature, sizeof c.temperature), bytes(&c.conductance, sizeof c.conductance);
-    }
-    for (const Collider& c : colliders) {
-        if (!c.alive) continue;
-        bytes(&c.slipLength, sizeof c.slipLength), bytes(&c.friction, sizeof c.friction);
-        h = hashCombine(h, static_cast<uint64_t>(c.adhesive) << 1 | static_cast<uint64_t>(c.occluder));
-    }
-    for (const Collider& c : colliders) {
-        if (!c.alive || !toldApart(c)) continue;
-        const Transform& t = c.hasTarget ? c.target : c.transform;
-        for (const Transform* x : {&c.transform, &t}) {
-            const float v[7] = {x->position.x, x->position.y, x->position.z, x->rotation.x,
-                                x->rotation.y, x->rotation.z, x->rotation.w};
-            bytes(v, sizeof v);
-        }
-    }
-    bytes(reference_.point.data(), reference_.point.size() * sizeof(Vec4));
-    bytes(reference_.slope.data(), reference_.slope.size() * sizeof(Vec4));
-    if (!reference_.home.empty()) bytes(reference_.home.data(), reference_.home.size() * sizeof(Vec4));
-    return control_.hash(units_.hash(heat_.hash(rigidLiquid_.hash(rigid_.hash(bonds_.hash(h))))));
 }
 
 thawLedger World::ledger() const {

@@ -24,6 +24,7 @@
 #include "world/plan.h"
 #include "world/surface_level.h"
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ Transform toTransform(thawVec3 position, thawQuat rotation, float scale);
 struct Slot {
     uint16_t generation = 0; // counts who lived here; never 0 for a valid id
     bool alive = false;
+    void state(StateIo& io) { io(generation, alive); }
     void take() {
         if (++generation == 0) generation = 1;
         alive = true;
@@ -85,6 +87,11 @@ public:
     void finishSurface(thawSurfaceView& out);
     thawSplatView splats();
     uint64_t stateHash() const;
+    // Images: see thawWorld_Save. save() returns how many bytes it wrote, 0 when there was not enough room.
+    size_t snapshotSize(bool full) const;
+    size_t save(void* buffer, size_t capacity, bool full) const;
+    thawResult restore(const void* image, size_t size, std::string& message);
+    bool forgetSnapshots(const void* oldest, size_t size, std::string& message);
     thawLedger ledger() const;
     thawCounters counters() const;
     int pieces(thawPieceState* out, int capacity) const;
@@ -138,7 +145,15 @@ private:
     void findAnchors();
     BondFrame bondFrame(float dt);
     bool anySoft() const; // some material is elastic
-    uint64_t hashMaterials(uint64_t h) const;
+    void state(StateIo& io);
+    void rowState(StateIo& io);
+    void bodyState(StateIo& io);
+    void hostState(StateIo& io);
+    void reportState(StateIo& io);
+    void formState(StateIo& io, bool full);
+    StateIo::Limits limits() const;
+    void pruneForms();
+    void ensureLists();
     thawResult makeRoomForBonds(uint32_t material, std::string& message);
     void soften(uint32_t material);
     void harden(uint32_t material);
@@ -173,10 +188,24 @@ private:
     SurfaceMaker surface_;
     SplatShapes splats_;
     SurfaceLevel surfaceLevel_{SurfaceLevel::Prices::learnt}, surfaceUnits_{SurfaceLevel::Prices::fixed};
-    int startedLevel_ = 0;     // of the mesh under way
+    int startedLevel_ = 0; // of the mesh under way
     Reference reference_;
     Levels levels_;
     Control control_;
+    ColliderForms colliderForms_;
+    ShapeForms shapeForms_;
+    mutable std::atomic<uint64_t> saves_{0}; // images that were made
+    uint64_t oldestSave_ = 0;                // that may still be read
+    // Of an image that is read; see StateIo::staged.
+    struct Stage {
+        std::vector<Material> materials;
+        std::vector<Slot> bodies, colliderSlots, sourceSlots, pathSlots, shapeSlots;
+        std::vector<Collider> colliders;
+        std::vector<HeatSource> sources;
+        size_t formsEnd = 0, rowsEnd = 0; // in the image
+        uint32_t rows = 0, movers = 0;
+    } stage_;
+    StateIo::Limits imageLimits_;        // of the image that was checked
     std::vector<HeatFrame::Spot> spots_; // of this step
     std::vector<uint16_t> mouldOn_;      // per shape, see HoldFrame
     struct PointRange {                  // of a body in the reference
@@ -195,6 +224,7 @@ private:
     static constexpr uint32_t kRelabelInterval = 8;
 
     bool listsStale_ = true;
+    bool listsGone_ = false;    // they are of before an image was read
     bool led_ = false;          // something moved when control last ran, or is gone since
     bool toldApart_ = false;    // some collider is: particles know what they hang on
     bool anchorsFresh_ = false; // some came to be since the anchors were found
