@@ -15,7 +15,7 @@ uniform vec4 uMaterialColor[MAX_MATERIALS]; // w: translucency
 uniform float uMaterialRoughness[MAX_MATERIALS];
 uniform vec2 uMaterialClear[MAX_MATERIALS]; // shares for clearDepth, of the solid and the melt
 uniform int uFlameLayer;
-uniform float uClipFloor; // 1: drop what is under the floor
+uniform vec4 uClip; // drops what is behind this plane: dot(xyz, position) + w < 0; 0 0 0 1: nothing
 
 out vec3 vPosition;
 out vec3 vNormal;
@@ -47,7 +47,7 @@ void main() {
         vClear += shares[k] * uMaterialClear[material];
     }
     vState = vec3(aTemperature, aLiquid, roughness);
-    gl_ClipDistance[0] = mix(1.0, world.y - uFloorHeight, uClipFloor);
+    gl_ClipDistance[0] = dot(uClip.xyz, world.xyz) + uClip.w;
     gl_Position = uProjection * uView * world;
 #endif
 }

@@ -6,7 +6,7 @@
 layout(location = 0) in vec4 aSphere; // x y z r
 layout(location = 1) in float aValue; // 0..1 in the colour ramp
 
-uniform float uClipFloor;
+uniform vec4 uClip; // drops what is behind this plane: dot(xyz, position) + w < 0; 0 0 0 1: nothing
 
 out vec3 vCenter; // in the view
 out vec2 vCorner;
@@ -18,7 +18,7 @@ uniform sampler2D uRamp;
 void main() {
     vCorner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1);
     vRadius = aSphere.w;
-    gl_ClipDistance[0] = mix(1.0, aSphere.y - uFloorHeight, uClipFloor);
+    gl_ClipDistance[0] = dot(uClip.xyz, aSphere.xyz) + uClip.w;
     vTint = textureLod(uRamp, vec2((aValue * 255.0 + 0.5) / 256.0, 0.5), 0.0).rgb;
 #if defined(KEY_PASS)
     vec3 p = aSphere.xyz + (vCorner.x * uKeyRight + vCorner.y * uKeyUp) * vRadius;

@@ -12,7 +12,7 @@ uniform vec4 uMaterialColor[MAX_MATERIALS]; // w: translucency
 uniform float uMaterialRoughness[MAX_MATERIALS];
 uniform vec2 uTemperatureRange, uPictureSize;
 uniform int uFlameLayer;
-uniform float uClipFloor; // 1: drop what is under the floor
+uniform vec4 uClip; // drops what is behind this plane: dot(xyz, position) + w < 0; 0 0 0 1: nothing
 uniform float uSplatSize; // of the half axes
 
 flat out vec4 vCenter;
@@ -29,7 +29,7 @@ void main() {
     vAlbedo = uMaterialColor[material];
     float t = (aState.x - uTemperatureRange.x) / max(uTemperatureRange.y - uTemperatureRange.x, 1e-6);
     vState = vec3(saturate(t), aState.y, uMaterialRoughness[material]);
-    gl_ClipDistance[0] = mix(1.0, aCenter.y - uFloorHeight, uClipFloor);
+    gl_ClipDistance[0] = dot(uClip.xyz, aCenter.xyz) + uClip.w;
 #if defined(KEY_PASS)
     vPoint = aCenter.xyz + (corner.x * uKeyRight + corner.y * uKeyUp) * vCenter.w;
     gl_Position = vec4((uKeyMatrix * vec4(vPoint, 1.0)).xyz * 2.0 - 1.0, 1.0);

@@ -3,6 +3,7 @@
 #include "app/fields.h"
 #include "app/panels.h"
 
+#include <algorithm>
 #include <array>
 
 namespace thaw::editor {
@@ -137,6 +138,61 @@ void showGraphs(Studio& studio, const Viewport& viewport) {
     ui::tip("Shows what the simulation and the window do when.");
 }
 
+namespace {
+
+void accuracy(Studio& studio) {
+    const Frame& f = studio.frame();
+    ReferenceRun& run = studio.referenceRun();
+    if (run.running()) {
+        ImGui::ProgressBar(run.progress(), {-1, 0}, "reference run");
+        if (ui::button("Cancel##cancel reference")) run.cancel();
+        return;
+    }
+    const Reference* reference = studio.reference();
+    if (!reference)
+        ui::quiet("no reference run of this scene");
+    else if (!studio.referenceFits())
+        ui::quiet("the scene has changed since its reference was made");
+    else if (const std::optional<Reference::Row> row = reference->at(f.time)) {
+        const float melted = f.counters.meltedFraction;
+        ui::value("molten", "%.2f %%, reference %.2f %%", double(100 * melted), double(100 * row->melted));
+        ui::value("differs by", "%+.2f points", double(100 * (melted - row->melted)));
+        ui::tip("What the budget costs in accuracy: molten mass against a run in which time does not count.");
+        if (f.steps.size() && f.steps.newest().frame == f.frame)
+            ui::value("mean temperature", "%+.2f K", double(f.steps.newest().meanTemperature - row->meanTemperature));
+        float now[120], then[120];
+        int count = 0;
+        for (int i = std::max(0, f.steps.size() - 480); i < f.steps.size() && count < 120; i += 4) {
+            const StepSample& s = f.steps[i];
+            const auto r = reference->at(double(s.frame) / 60);
+            if (!r) continue;
+            now[count] = 100 * s.melted, then[count] = 100 * r->melted, ++count;
+        }
+        if (count > 1) {
+            const float most =
+                std::max({1e-3f, *std::max_element(now, now + count), *std::max_element(then, then + count)});
+            const ImVec2 at = ImGui::GetCursorPos(), size(ImGui::GetContentRegionAvail().x, 4 * ImGui::GetFontSize());
+            ImGui::PushStyleColor(ImGuiCol_PlotLines, ImVec4(0.6f, 0.6f, 0.6f, 1));
+            ImGui::PlotLines("##reference", then, count, 0, nullptr, 0, most, size);
+            ImGui::PopStyleColor();
+            ImGui::SetCursorPos(at);
+            ImGui::PushStyleColor(ImGuiCol_FrameBg, ImVec4(0, 0, 0, 0));
+            ImGui::PushStyleColor(ImGuiCol_PlotLines, ImVec4(1, 0.65f, 0.25f, 1));
+            ImGui::PlotLines("##molten", now, count, 0, "molten: now, and reference (grey)", 0, most, size);
+            ImGui::PopStyleColor(2);
+        }
+    } else {
+        ui::quietf("the reference ends at %.1f s", double(reference->rows.back().time));
+    }
+    if (ui::button(reference ? "Make it again##make reference" : "Make a reference##make reference"))
+        studio.makeReference();
+    ui::tip("Runs the scene with the finest particles and many iterations, which takes some minutes, and stores what "
+            "melts when "
+            "beside the scene.");
+}
+
+} // namespace
+
 void showPlan(Studio& studio) {
     const Frame& f = studio.frame();
     const thawCounters& c = f.counters;
@@ -164,6 +220,7 @@ void showPlan(Studio& studio) {
             ImGui::TextColored({1, 0.7f, 0.4f, 1}, "%s", thawStepStatusString(bit));
             ImGui::PopTextWrapPos();
         }
+    if (ui::section("Accuracy")) accuracy(studio);
     if (ui::section("Why each stage runs##stages", false))
         for (int s = 0; s < int(thawStage_count); ++s) {
             ui::field(thawStageName(thawStage(s)));

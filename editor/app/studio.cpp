@@ -14,7 +14,7 @@ constexpr double kNoticeSeconds = 8, kAutosaveSeconds = 5;
 
 Studio::Studio(const Options& options)
     : settings(loadSettings(options.places)), places(options.places), simulation_(options.threads),
-      autosave_(options.places) {
+      threads_(options.threads), autosave_(options.places) {
     thawInitBudget(&orders_.budget);
     orders_.budget.mode = thawBudget_milliseconds;
     lost = autosave_.lost();
@@ -156,8 +156,10 @@ void Studio::update() {
         shownRevision_ = orders_.revision = document_.revision();
         orders_.scene = std::make_shared<const scene::Scene>(scene());
         pickerStale_ = true;
+        meltHash_ = meltHash(scene());
         send = true;
     }
+    followReference();
     orders_.budget.milliseconds = budget();
     orders_.particles =
         hasPickedParticle || scene::isOfParticles(view.picture) || view.picture == scene::PictureView::splats;
@@ -183,6 +185,30 @@ void Studio::update() {
         nextAutosave_ = time + kAutosaveSeconds;
     }
     if (notice_.until < time) notice_ = {};
+}
+
+void Studio::makeReference() {
+    if (document_.path().empty()) return tell("save the scene first: the reference is stored beside it", true);
+    play(false);
+    referenceRun_.start(scene(), threads_);
+}
+
+void Studio::followReference() {
+    if (std::optional<ReferenceRun::Result> made = referenceRun_.take()) {
+        if (!made->error.empty()) return complain("There is no reference", made->error);
+        try {
+            saveReference(made->reference, referencePath(document_.path()));
+            tell("stored " + referencePath(document_.path()));
+        } catch (const std::exception& e) {
+            complain("The reference is not stored", e.what());
+        }
+        reference_ = std::move(made->reference);
+        referenceFile_ = document_.path();
+    }
+    if (referenceFile_ != document_.path()) {
+        referenceFile_ = document_.path();
+        reference_ = referenceFile_.empty() ? std::nullopt : loadReference(referencePath(referenceFile_));
+    }
 }
 
 Picker& Studio::picker() {

@@ -6,6 +6,7 @@
 #include "model/document.h"
 #include "model/items.h"
 #include "model/pick.h"
+#include "model/reference.h"
 #include "model/settings.h"
 #include "model/simulation.h"
 #include "player/scene_stage.h"
@@ -38,7 +39,9 @@ struct ViewSettings {
     scene::PictureView picture = scene::PictureView::shaded;
     bool controls = true;      // paths and shapes are drawn over it
     bool icons = true;         // heat sources, nodes, axes
-    bool clip = false;         // the half of the scene before a plane is left out, where the picture shows particles
+    bool clip = false;         // what lies before a plane through the middle of the scene is left out
+    int clipAxis = 2;          // of the plane: x, y, z
+    float clipOffset = 0;      // m from the middle, to the viewer
     bool followCamera = false; // the scene's own, along its keys
 };
 
@@ -103,6 +106,16 @@ public:
     /// Milliseconds that the governor may take; kept in the scene's defaults.
     float budget() const { return scene().defaults.budgetMilliseconds; }
 
+    // ---- accuracy
+
+    /// The stored reference run of this scene, null when there is none.
+    const Reference* reference() const { return reference_ ? &*reference_ : nullptr; }
+    /// Whether the scene is still the one that it was made of.
+    bool referenceFits() const { return reference_ && reference_->hash == meltHash_; }
+    /// Makes one; needs a file, beside which it is stored.
+    void makeReference();
+    ReferenceRun& referenceRun() { return referenceRun_; }
+
     // ---- every frame
 
     /// Takes the newest frame of the simulation, sends it what changed, keeps a copy of unsaved work.
@@ -146,12 +159,19 @@ public:
     bool hasPickedParticle = false;
 
 private:
+    void followReference();
+
     Document document_;
     Simulation simulation_;
     Orders orders_, sent_;
     Item selection_;
     Picker picker_;
     bool pickerStale_ = true;
+    std::optional<Reference> reference_;
+    std::string referenceFile_;
+    ReferenceRun referenceRun_;
+    uint64_t meltHash_ = 0;
+    int threads_;
     Notice notice_;
     Autosave autosave_;
     double nextAutosave_ = 0;

@@ -209,23 +209,39 @@ void showViewPanel(Studio& studio, Viewport& viewport) {
     ui::tip("Heat sources, lines and nodes.");
     ImGui::SameLine();
     ui::toggle("cut", &v.clip);
-    ui::tip("Leaves out what lies before the middle, where particles are shown.");
-    ImGui::SameLine();
-    ui::toggle("scene camera", &v.followCamera);
-    ui::tip("Look through the scene's own camera, along its keys.");
+    ui::tip("Leaves out what lies before a plane, to look inside.");
+    if (v.clip) {
+        static const char* const axes[] = {"x", "y", "z"};
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(3 * ImGui::GetFontSize());
+        ImGui::Combo("##cut axis", &v.clipAxis, axes, 3);
+        ui::note("cut axis");
+        ui::tip("Across which axis it is cut.");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
+        float offset = 1000 * v.clipOffset;
+        if (ImGui::DragFloat("##cut offset", &offset, 0.2f, -1e5f, 1e5f, "%.1f mm")) v.clipOffset = offset / 1000;
+        ui::note("cut offset");
+        ui::tip("How far before the middle of the scene.");
+    }
     ImGui::SameLine();
     if (ui::button("Focus")) viewport.focus(studio);
     ui::tip("Looks at what is chosen, or at everything.", "F");
     ImGui::SameLine();
-    if (ui::button("Set camera"))
+    if (ui::button("Camera ...##camera menu")) ImGui::OpenPopup("camera");
+    ui::tip("The scene's own camera, that of captures.");
+    if (!ImGui::BeginPopup("camera")) return;
+    if (ImGui::MenuItem("Look through it", nullptr, v.followCamera)) v.followCamera = !v.followCamera;
+    ui::note("camera look");
+    ui::tip("Along its keys, while the scene plays.");
+    if (ImGui::MenuItem("Put it here"))
         studio.edit("Set camera", [&](scene::Scene& s) {
             const view::Camera c = viewport.lens.camera();
             s.camera.eye = c.eye, s.camera.target = c.target;
             s.camera.fieldOfViewDegrees = c.fieldOfView * 57.29578f;
         });
-    ui::tip("The scene's camera looks from here.");
-    ImGui::SameLine();
-    if (ui::button("Add key")) {
+    ui::note("camera set");
+    if (ImGui::MenuItem("Add a key here")) {
         const double time = studio.frame().time;
         studio.edit("Add camera key", [&](scene::Scene& s) {
             const view::Camera c = viewport.lens.camera();
@@ -239,7 +255,9 @@ void showViewPanel(Studio& studio, Viewport& viewport) {
             s.camera.keys.insert(at, key);
         });
     }
-    ui::tip("The scene's camera is here at this time of the game.");
+    ui::note("camera key");
+    ui::tip("It is here at this time of the game.");
+    ImGui::EndPopup();
 }
 
 } // namespace thaw::editor

@@ -14,6 +14,9 @@
 namespace thaw::editor {
 
 namespace {
+using view::operator+;
+using view::operator*;
+
 // On a software rasteriser a picture takes a tenth of a second and more. While something moves a coarse one stands in.
 constexpr double kStillSeconds = 0.35;
 constexpr float kDraftMs = 60, kSlowMs = 25;
@@ -85,7 +88,7 @@ void Viewport::stage(const Studio& studio) {
     }
     looks_ = scene_.materials;
     scene_.stage = bounds;
-    balls_ = scene::ParticleBalls(*f.scene, cut_);
+    balls_ = scene::ParticleBalls(*f.scene, false);
     const scene::TemperatureRange range = scene::temperatureRangeOf(*f.scene);
     view_.temperatureLow = range.low, view_.temperatureHigh = range.high;
     view_.exposure = f.scene->look.exposure;
@@ -124,6 +127,16 @@ void Viewport::melt(const Studio& studio) {
     scene_.regions.clear();
     if (studio.view.controls || studio.view.picture == scene::PictureView::control) scene_.regions = regions_;
     view_.mode = scene::modeOf(studio.view.picture);
+    const ViewSettings& v = studio.view;
+    view_.cut.on = v.clip;
+    const view::Bounds& b = scene_.stage;
+    const view::Vec3 middle = b.empty() ? view::Vec3{0, 0, 0} : b.center();
+    // To the viewer along that axis, so that one looks at what is cut.
+    const view::Vec3 eye = lens.camera().eye;
+    const float sides[3] = {eye.x - middle.x, eye.y - middle.y, eye.z - middle.z};
+    const float side = sides[v.clipAxis] < 0 ? -1.0f : 1.0f;
+    view_.cut.normal = {v.clipAxis == 0 ? side : 0, v.clipAxis == 1 ? side : 0, v.clipAxis == 2 ? side : 0};
+    view_.cut.point = middle + view_.cut.normal * v.clipOffset;
     particles_ = f.particles.view();
     if (studio.view.picture == scene::PictureView::splats && particles_.count > 0 &&
         f.particles.splats().count == particles_.count) {
@@ -131,7 +144,6 @@ void Viewport::melt(const Studio& studio) {
         scene_.splatShapes = f.particles.splats();
     }
     if (scene::isOfParticles(studio.view.picture) && particles_.count > 0) {
-        if (cut_ != studio.view.clip) cut_ = studio.view.clip, balls_ = scene::ParticleBalls(*f.scene, cut_);
         const bool sizes = studio.view.picture == scene::PictureView::elfs;
         if (!sizes || f.particles.featureSizes().size() == size_t(particles_.count)) {
             scene_.surface = {};
@@ -203,7 +215,8 @@ void Viewport::show(Studio& studio) {
     const view::Camera camera = lens.camera();
     dirty_ = dirty_ || drawnFrame_ != studio.framesTaken() || !same(camera, drawnCamera_) ||
              drawnView_.picture != studio.view.picture || drawnView_.controls != studio.view.controls ||
-             drawnView_.clip != studio.view.clip || drawnSize_.x != size.x || drawnSize_.y != size.y;
+             drawnView_.clip != studio.view.clip || drawnView_.clipAxis != studio.view.clipAxis ||
+             drawnView_.clipOffset != studio.view.clipOffset || drawnSize_.x != size.x || drawnSize_.y != size.y;
     const double time = now();
     const int width = std::min(int(size.x), 8192), height = std::min(int(size.y), 8192);
     if (dirty_) {
@@ -214,7 +227,8 @@ void Viewport::show(Studio& studio) {
             share_ = draftMs_ > 0 ? share : 0.5f;
         }
         view_.samples = draft ? 1 : 4;
-        view_.legend = !draft;
+        // Blurred in a draft, so only where colours mean something.
+        view_.legend = !draft || studio.view.picture != scene::PictureView::shaded;
         view_.draft = draft;
         draw(studio, draft ? std::max(32, int(float(width) * share_)) : width,
              draft ? std::max(32, int(float(height) * share_)) : height);

@@ -67,7 +67,7 @@ private:
     std::shared_ptr<const scene::SceneMeshes> stagedMeshes_;
     thawParticleView particles_{};
     uint64_t framedFor_ = 0;
-    bool cut_ = false, dirty_ = true, software_ = false, sharp_ = false;
+    bool dirty_ = true, software_ = false, sharp_ = false;
 
     // What the picture shows, and how long it took.
     uint64_t drawnFrame_ = ~0ull;

@@ -198,6 +198,19 @@ void LiveWorld::followControls(const scene::Scene& next, const scene::SceneMeshe
         });
 }
 
+LiveWorld::Standing LiveWorld::standing() const {
+    return {scene_,      meshes_,      made_.materials,   made_.bodies,          made_.colliders, made_.heatSources,
+            made_.paths, made_.shapes, made_.bodyReports, made_.colliderReports, driven_};
+}
+
+void LiveWorld::stand(const Standing& s) {
+    scene_ = s.scene, meshes_ = s.meshes;
+    made_.materials = s.materials, made_.bodies = s.bodies, made_.colliders = s.colliders;
+    made_.heatSources = s.heatSources, made_.paths = s.paths, made_.shapes = s.shapes;
+    made_.bodyReports = s.bodyReports, made_.colliderReports = s.colliderReports;
+    driven_ = s.driven;
+}
+
 scene::Placement LiveWorld::placementOf(size_t collider) const {
     scene::Placement out = scene_->colliders[collider].placement;
     thawCollider_GetTransform(world(), made_.colliders[collider], &out.position, &out.rotation);

@@ -47,6 +47,23 @@ public:
     /// One step of 1/60 s. Returns thawStepStatus bits.
     uint32_t step(const thawBudget& budget);
 
+    /// All of it that an image of the world does not hold.
+    struct Standing {
+        std::shared_ptr<const scene::Scene> scene;
+        std::shared_ptr<const scene::SceneMeshes> meshes;
+        std::vector<thawMaterialId> materials;
+        std::vector<thawBodyId> bodies;
+        std::vector<thawColliderId> colliders;
+        std::vector<thawHeatSourceId> heatSources;
+        std::vector<thawPathId> paths;
+        std::vector<thawShapeId> shapes;
+        std::vector<thawMeshReport> bodyReports, colliderReports;
+        std::vector<bool> driven;
+    };
+    Standing standing() const;
+    /// After the world was put back to when it stood so.
+    void stand(const Standing& standing);
+
     thawWorld* world() const { return made_.world.get(); }
     const scene::SceneWorld& ids() const { return made_; }
     const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }

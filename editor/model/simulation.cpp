@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "model/simulation.h"
 
+#include "model/history.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +19,9 @@ struct Simulation::Worker {
     MeshStore store;
     Orders orders;
     uint64_t revision = 0, resets = 0, steps = 0, seeks = 0; // carried out
+    History history;
     int64_t frame = 0;
+    int64_t goal = -1;    // frame that is gone to through what was run; -1: none
     bool stale = false;   // what was changed at the start went into the world as it stood: it is not what a new one is
     bool changed = false; // since the last frame was sent
     double due = 0;       // when the next step is
@@ -45,11 +49,12 @@ struct Simulation::Worker {
     void build() {
         timed(SpanKind::build, [&] {
             error.clear(), changed = true, stale = false;
-            frame = 0;
-            samples.clear();
+            frame = 0, goal = -1;
+            samples.clear(), history.clear();
             if (!orders.scene) return live.clear();
             try {
                 live.build(orders.scene, store.load(*orders.scene));
+                history.begin(live);
             } catch (const std::exception& e) {
                 live.clear();
                 error = e.what();
@@ -67,23 +72,82 @@ struct Simulation::Worker {
                             std::any_of(changes.bodies.begin(), changes.bodies.end(),
                                         [](const KeptBody& b) { return b.changed || b.was < 0; });
         if (changes.capacity || (frame == 0 && bodies)) return build();
+        bring(orders.scene, orders.playing && frame > 0);
+        if (changes.any()) {
+            // What was run beyond this was run with another scene.
+            history.cut(frame);
+            stale = stale || frame == 0;
+        }
+    }
+
+    /// Changes the world as it stands into this scene.
+    void bring(const std::shared_ptr<const scene::Scene>& scene, bool driven) {
+        if (live.scene() == scene) return;
         try {
             error.clear();
-            auto meshes = store.load(*orders.scene);
-            timed(SpanKind::build, [&] { live.follow(orders.scene, std::move(meshes), orders.playing && frame > 0); });
+            auto meshes = store.load(*scene);
+            timed(SpanKind::build, [&] { live.follow(scene, std::move(meshes), driven); });
         } catch (const std::exception& e) {
             error = e.what();
         }
-        stale = stale || (frame == 0 && changes.any());
+    }
+
+    /// Back to the start, as the scene is now.
+    void rewind() {
+        changed = true;
+        try {
+            if (!stale && live.world() && live.scene() && !history.empty() && orders.scene &&
+                !changesBetween(*startScene(), *orders.scene).any() && store.load(*orders.scene) == live.meshes()) {
+                timed(SpanKind::rewind, [&] { frame = history.restore(0, live); });
+                if (frame == 0) return bring(orders.scene, false);
+            }
+        } catch (const std::exception&) {
+            // What is wrong with the scene is told by building it.
+        }
+        build();
+    }
+
+    std::shared_ptr<const scene::Scene> startScene() const {
+        return history.newest() > 0 ? history.step(1).scene : live.scene();
     }
 
     void step() {
         if (frame == 0 && stale) build();
         if (!live.world()) return;
+        bring(orders.scene, orders.playing);
+        advance(orders.budget);
+        history.add(frame, {samples.newest().work, live.scene(), orders.playing}, live);
+        if (orders.loopAt > 0 && orders.playing && double(frame) / 60 >= double(orders.loopAt)) rewind();
+    }
+
+    /// A step of those that were done before, with the same bits.
+    void replay() {
+        const History::Step& step = history.step(frame + 1);
+        bring(step.scene, step.driven);
+        thawBudget budget;
+        thawInitBudget(&budget);
+        budget.mode = thawBudget_work, budget.work = step.work;
+        timed(SpanKind::rewind, [&] { live.step(budget); });
+        ++frame;
+    }
+
+    void seek(int64_t to) {
+        goal = -1;
+        if (!live.world()) return;
+        to = std::clamp<int64_t>(to, 0, history.newest());
+        if (to < frame || history.imageBefore(to) > frame) {
+            const int64_t at = timed(SpanKind::rewind, [&] { return history.restore(to, live); });
+            if (at < 0) return;
+            frame = at;
+        }
+        goal = to, changed = true;
+    }
+
+    void advance(const thawBudget& budget) {
         StepSample sample;
-        sample.status = timed(SpanKind::step, [&] { return live.step(orders.budget); });
+        sample.status = timed(SpanKind::step, [&] { return live.step(budget); });
         sample.frame = ++frame;
-        sample.budgetMs = orders.budget.mode == thawBudget_milliseconds ? orders.budget.milliseconds : 0;
+        sample.budgetMs = budget.mode == thawBudget_milliseconds ? budget.milliseconds : 0;
         thawWorld_GetProfile(live.world(), &sample.profile);
         thawPlan plan;
         thawWorld_GetPlan(live.world(), &plan);
@@ -101,7 +165,6 @@ struct Simulation::Worker {
         sample.meanTemperature = mass > 0 ? float(heat / mass) : 0;
         samples.add(sample);
         changed = true;
-        if (orders.loopAt > 0 && orders.playing && counters.time >= double(orders.loopAt)) build();
     }
 
     void show(Frame& f) {
@@ -132,7 +195,9 @@ struct Simulation::Worker {
         } else {
             f.mesh.copy({});
         }
-        f.oldest = 0, f.newest = frame;
+        f.oldest = 0, f.newest = std::max(frame, history.newest());
+        f.working = goal >= 0;
+        f.snapshotBytes = history.bytes();
         f.steps = samples, f.spans = spans;
     }
 
@@ -190,13 +255,23 @@ struct Simulation::Worker {
             changed = changed || next.particles != orders.particles || next.featureSizes != orders.featureSizes ||
                       next.splats != orders.splats;
             orders = next;
-            if (orders.resets != resets)
-                resets = orders.resets, revision = orders.revision, build();
-            else if (orders.revision != revision)
+            if (orders.resets != resets) {
+                resets = orders.resets;
+                // Another scene starts anew in any case.
+                if (orders.revision != revision)
+                    revision = orders.revision, build();
+                else
+                    rewind();
+            } else if (orders.revision != revision) {
                 follow();
+            }
+            if (orders.seeks != seeks) seeks = orders.seeks, seek(orders.seekTo);
             if (orders.playing && !was) due = now();
         }
-        if (steps != orders.steps) {
+        if (goal >= 0) {
+            if (frame < goal) replay();
+            if (frame >= goal) goal = -1, changed = true;
+        } else if (steps != orders.steps) {
             ++steps, step();
         } else if (orders.playing && live.world()) {
             const double wait = due - now();
@@ -207,7 +282,7 @@ struct Simulation::Worker {
             }
         }
         if (changed && out.frames_.taken()) send();
-        if (steps != orders.steps) return 0;
+        if (goal >= 0 || steps != orders.steps) return 0;
         if (orders.playing && live.world()) return std::max(0.0, due - now());
         return changed ? 0.002 : -1;
     }

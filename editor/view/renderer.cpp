@@ -33,7 +33,8 @@ namespace thaw::view {
 namespace {
 
 constexpr int kKeyMapSize = 1024, kFlameMapSize = 512;
-constexpr float kFlameHalfWidth = 0.25f;                               // of a flame's height
+constexpr float kFlameHalfWidth = 0.25f; // of a flame's height
+constexpr float kNoClip[4] = {0, 0, 0, 1};
 constexpr int kModePlain = 4, kModeFloor = 5;                          // beyond ViewMode, as in geometry.frag
 constexpr int kMaxFlames = 8, kShadowedFlames = 4, kMaxMaterials = 16; // as in common.glsl
 
@@ -595,7 +596,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         p.set3("uFlameRight", &flameRights[0].x, kShadowedFlames);
         p.set3("uFlameUp", &flameUps[0].x, kShadowedFlames);
         p.set("uFlameReach", flameReach);
-        p.set("uClipFloor", 0.0f);
+        p.set4("uClip", kNoClip, 1);
         p.set("uMode", modeNumber);
         p.set("uLightScale", static_cast<float>(lightWidth) / view.width,
               static_cast<float>(lightHeight) / view.height);
@@ -703,17 +704,18 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
     glViewport(0, 0, mirror.width, mirror.height);
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    const float underFloor[4] = {0, 1, 0, -scene.floor.height};
     if (reflects) {
         const float y2 = 2 * scene.floor.height;
         Mat4 flip;
         flip.m = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, y2, 0, 1};
         meshMirror.use();
         setCamera(meshMirror, viewM * flip, {camera.eye.x, y2 - camera.eye.y, camera.eye.z}, up);
-        meshMirror.set("uClipFloor", 1.0f);
+        meshMirror.set4("uClip", underFloor, 1);
         drawThings(meshMirror, nullptr, false);
         splats.mirrorProgram().use();
         setCamera(splats.mirrorProgram(), viewM * flip, {camera.eye.x, y2 - camera.eye.y, camera.eye.z}, up);
-        splats.mirrorProgram().set("uClipFloor", 1.0f);
+        splats.mirrorProgram().set4("uClip", underFloor, 1);
         splats.drawMirror();
     }
     glDisable(GL_CLIP_DISTANCE0);
@@ -733,7 +735,7 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         meshMirror.use();
         setCamera(meshMirror, viewM, camera.eye, up);
-        meshMirror.set("uClipFloor", 0.0f);
+        meshMirror.set4("uClip", kNoClip, 1);
         drawThings(meshMirror, nullptr, false, Melt::none);
         glClear(GL_DEPTH_BUFFER_BIT);
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -766,7 +768,22 @@ bool Renderer::State::draw(const Scene& scene, const View& view, GLuint framebuf
         p->set("uPhaseLimits", kSolidBelow, kLiquidAbove);
     }
     splats.resolve(samples);
-    drawThings(meshGeometry, &particleGeometry, false, Melt::front);
+    const bool cut = view.cut.on;
+    if (cut) {
+        const Vec3 n = normalize(view.cut.normal);
+        const float plane[4] = {-n.x, -n.y, -n.z, dot(n, view.cut.point)};
+        for (GlProgram* p : {&meshGeometry, &particleGeometry}) p->use(), p->set4("uClip", plane, 1);
+        meshGeometry.use();
+        meshGeometry.set("uInside", 1);
+        glEnable(GL_CLIP_DISTANCE0);
+    }
+    drawThings(meshGeometry, &particleGeometry, false, cut ? Melt::whole : Melt::front);
+    if (cut) {
+        glDisable(GL_CLIP_DISTANCE0);
+        meshGeometry.use();
+        meshGeometry.set("uInside", 0);
+        meshGeometry.set4("uClip", kNoClip, 1); // the floor stays whole
+    }
     if (floorShown) {
         meshGeometry.use();
         setMaterial(meshGeometry, &ground);

@@ -123,8 +123,15 @@ struct Scene {
     Bounds stage;
 };
 
+/// Leaves out the things and the melt on one side of a plane, to look inside; shadows stay whole. Not of splats.
+struct Cut {
+    bool on = false;
+    Vec3 point{0, 0, 0}, normal{0, 0, 1}; // m; out of the plane, to what is left out; any length but 0
+};
+
 struct View {
     Camera camera;
+    Cut cut;
     int width = 960, height = 540; // pixels, 16..8192 each
     int samples = 4;               // per pixel against stairs at edges; 1..8, cut to what the driver has
     ViewMode mode = ViewMode::shaded;
