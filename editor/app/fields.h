@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace thaw::editor::ui {
@@ -22,9 +23,13 @@ struct Range {
     float speed = 0;             // of dragging, in what is shown by pixel; 0: a slider from low to high
 };
 
+/// What else has to follow when a value changes, so that the scene stays one.
+using Repair = std::function<void(scene::Scene&)>;
+
 /// access: [](auto& scene) -> auto& { a float of it }. True when it was changed now.
 template <class Access>
-bool real(Studio& studio, const char* label, Access access, const Range& range, const char* help) {
+bool real(Studio& studio, const char* label, Access access, const Range& range, const char* help,
+          const Repair& repair = {}) {
     float value = access(studio.scene()) * range.unit;
     field(label);
     ImGui::PushID(label);
@@ -40,7 +45,10 @@ bool real(Studio& studio, const char* label, Access access, const Range& range, 
     if (changed && std::isfinite(value))
         studio.edit(
             std::string("Set ") + label,
-            [&](scene::Scene& s) { access(s) = std::clamp(value / range.unit, range.low, range.high); },
+            [&](scene::Scene& s) {
+                access(s) = std::clamp(value / range.unit, range.low, range.high);
+                if (repair) repair(s);
+            },
             std::string("field ") + label);
     if (ended) studio.endGesture();
     return changed;

@@ -288,10 +288,16 @@ void pathFields(Studio& studio, size_t i) {
         studio, "enabled", [=](auto& s) -> auto& { return p(s).enabled; }, "It is on.");
     ui::real(
         studio, "radius", [=](auto& s) -> auto& { return p(s).radius; }, {1e-4f, 10, "%.1f mm", false, 1000, 0.1f},
-        "Half the width of the stream.");
+        "Half the width of the stream.",
+        [=](scene::Scene& s) {
+            thawPathDef& d = p(s);
+            if (d.reach > 0) d.reach = std::max(d.reach, d.radius);
+            if (d.beadSpacing > 0) d.beadSpacing = std::max(d.beadSpacing, 2 * d.radius);
+        });
     ui::maybe(
         studio, "reach", [=](auto& s) -> auto& { return p(s).reach; }, 0, 3 * studio.scene().paths[i].def.radius,
-        "twice the radius", {1e-4f, 10, "%.1f mm", false, 1000, 0.2f}, "From where melt is drawn to it.");
+        "twice the radius", {studio.scene().paths[i].def.radius, 10, "%.1f mm", false, 1000, 0.2f},
+        "From where melt is drawn to it.");
     ui::real(
         studio, "strength", [=](auto& s) -> auto& { return p(s).strength; }, {0, 1, "%.2f"},
         "0: nothing, 0.5: a hint, 1: a lock.");
@@ -307,7 +313,7 @@ void pathFields(Studio& studio, size_t i) {
     ui::maybe(
         studio, "beads", [=](auto& s) -> auto& { return p(s).beadSpacing; }, 0,
         std::max(4 * studio.scene().paths[i].def.radius, 0.01f), "an even stream",
-        {1e-4f, 10, "%.1f mm", false, 1000, 0.2f}, "Along it between beads; at least twice the radius.");
+        {2 * studio.scene().paths[i].def.radius, 10, "%.1f mm", false, 1000, 0.2f}, "Along it between beads; at least twice the radius.");
     ui::maybe(
         studio, "start takes up", [=](auto& s) -> auto& { return p(s).startAbsorptivity; }, NAN, 1, "as the material",
         {0, 1, "%.2f", false, 1, 0.01f}, "Share of radiation at its first point: melting starts there.");

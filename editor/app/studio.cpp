@@ -62,6 +62,7 @@ bool Studio::open(const std::string& path) {
     }
     ++sceneNumber_;
     settings.remember(path);
+    saveSettings(places, settings);
     select({});
     play(false), reset();
     tell("opened " + path);
@@ -86,6 +87,7 @@ bool Studio::saveAs(const std::string& path) {
         return false;
     }
     settings.remember(path);
+    saveSettings(places, settings);
     tell("saved " + path);
     return true;
 }
