@@ -30,11 +30,9 @@ Hand::Hand(const Folder& folder, int width, int height) : width_(width), height_
     std::string error;
     context_ = thaw::view::HeadlessContext::create(error);
     if (!context_) throw std::runtime_error(error);
-    if (!thaw::view::makeTarget(screen_, GL_RGBA8, width, height, GL_LINEAR, nullptr, error))
-        throw std::runtime_error(error);
     shell_ = std::make_unique<Shell>();
     ImGuiIO& io = ImGui::GetIO();
-    io.DisplaySize = {float(width), float(height)};
+    resize(width, height);
     // As ImGui's backend for GLFW has them.
     const std::pair<ImGuiKey, int> keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
                                              {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
@@ -149,9 +147,19 @@ void Hand::drag(Point from, Point to, int steps, int button) {
     frame();
 }
 
-void Hand::wheel(float steps) {
-    ImGui::GetIO().MouseWheel = steps;
+void Hand::wheel(float steps, bool ctrl) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.KeyCtrl = ctrl, io.MouseWheel = steps;
     frame();
+    io.KeyCtrl = false;
+}
+
+void Hand::resize(int width, int height) {
+    std::string error;
+    if (!thaw::view::makeTarget(screen_, GL_RGBA8, width, height, GL_LINEAR, nullptr, error))
+        throw std::runtime_error(error);
+    width_ = width, height_ = height;
+    ImGui::GetIO().DisplaySize = {float(width), float(height)};
 }
 
 void Hand::key(int code, bool ctrl, bool shift) {

@@ -59,10 +59,14 @@ public:
     void click(const std::string& control) { click(at(control)); }
     void clickTwice(Point where);
     void drag(Point from, Point to, int steps = 8, int button = 0);
-    void wheel(float steps);
+    void wheel(float steps, bool ctrl = false);
     /// A key of GLFW, with Ctrl or Shift.
     void key(int code, bool ctrl = false, bool shift = false);
     void type(const std::string& text);
+    /// The window has another size. Throws std::runtime_error where there is no memory for it.
+    void resize(int width, int height);
+    int width() const { return width_; }
+    int height() const { return height_; }
     /// What the window would show.
     thaw::view::Image picture();
 
