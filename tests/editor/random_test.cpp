@@ -131,9 +131,14 @@ void Monkey::act() {
     static constexpr int commands[] = {GLFW_KEY_Z, GLFW_KEY_Z, GLFW_KEY_Z, GLFW_KEY_Y, GLFW_KEY_Y,
                                        GLFW_KEY_D, GLFW_KEY_D, GLFW_KEY_N, GLFW_KEY_O, GLFW_KEY_S,
                                        GLFW_KEY_Q, GLFW_KEY_I, GLFW_KEY_E, GLFW_KEY_A};
-    const int what = below(100);
+    int what = below(100);
     const uint64_t revision = hand_->studio().document().revision();
-    if (what < 28) {
+    // A window that asks something takes all input: not for long.
+    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) && below(3) == 0) {
+        say("escape");
+        hand_->key(GLFW_KEY_ESCAPE);
+        what = 100;
+    } else if (what < 28) {
         const std::string control = someControl(false);
         if (control.empty()) return hand_->frame();
         const Hand::Point at = in(control);
@@ -175,7 +180,7 @@ void Monkey::act() {
         say("type " + text);
         hand_->type(text);
         if (below(2)) hand_->key(GLFW_KEY_ENTER);
-    } else {
+    } else if (what < 100) {
         say("resize");
         hand_->resize(320 + below(600), 240 + below(360));
         hand_->frame(2);
@@ -204,11 +209,11 @@ TEST_CASE("random: whatever is pressed and dragged, the scene stays one, and und
     const uint32_t seed = uint32_t(setting("THAW_RANDOM_SEED", 1));
     const double seconds = setting("THAW_RANDOM_SECONDS", 3);
     {
+        MESSAGE("seed " << seed);
         Monkey monkey(folder, seed);
         const double end = now() + seconds;
         while (now() < end) monkey.act();
-        MESSAGE("seed " << seed << ", " << monkey.acts << " acts, " << monkey.edits << " edits, " << monkey.starts
-                        << " starts");
+        MESSAGE(monkey.acts << " acts, " << monkey.edits << " edits, " << monkey.starts << " starts");
         INFO("seed " << seed << ", the last acts:\n" << monkey.story());
         Hand& hand = monkey.hand();
         Studio& studio = hand.studio();
