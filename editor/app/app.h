@@ -37,6 +37,7 @@ public:
     const Viewport& viewport() const { return viewport_; }
     const Controls& controls() const { return controls_; }
     Dialogs& dialogs() { return dialogs_; }
+    Exporter& exporter() { return exporter_; }
     /// ms that the panels of the last frame took, without the picture.
     float panelMs() const { return panelMs_; }
     float worstPanelMs() const { return worstPanelMs_; }

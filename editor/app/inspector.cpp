@@ -313,7 +313,8 @@ void pathFields(Studio& studio, size_t i) {
     ui::maybe(
         studio, "beads", [=](auto& s) -> auto& { return p(s).beadSpacing; }, 0,
         std::max(4 * studio.scene().paths[i].def.radius, 0.01f), "an even stream",
-        {2 * studio.scene().paths[i].def.radius, 10, "%.1f mm", false, 1000, 0.2f}, "Along it between beads; at least twice the radius.");
+        {2 * studio.scene().paths[i].def.radius, 10, "%.1f mm", false, 1000, 0.2f},
+        "Along it between beads; at least twice the radius.");
     ui::maybe(
         studio, "start takes up", [=](auto& s) -> auto& { return p(s).startAbsorptivity; }, NAN, 1, "as the material",
         {0, 1, "%.2f", false, 1, 0.01f}, "Share of radiation at its first point: melting starts there.");

@@ -163,8 +163,8 @@ void Studio::update() {
     }
     followReference();
     orders_.budget.milliseconds = budget();
-    orders_.particles =
-        hasPickedParticle || scene::isOfParticles(view.picture) || view.picture == scene::PictureView::splats;
+    orders_.particles = tool == Tool::probe || hasPickedParticle || scene::isOfParticles(view.picture) ||
+                        view.picture == scene::PictureView::splats;
     orders_.featureSizes = view.picture == scene::PictureView::elfs;
     orders_.splats = view.picture == scene::PictureView::splats;
     send = send || orders_.playing != sent_.playing || orders_.speed != sent_.speed || orders_.loopAt != sent_.loopAt ||

@@ -218,7 +218,9 @@ void Viewport::show(Studio& studio) {
              drawnView_.clip != studio.view.clip || drawnView_.clipAxis != studio.view.clipAxis ||
              drawnView_.clipOffset != studio.view.clipOffset || drawnSize_.x != size.x || drawnSize_.y != size.y;
     const double time = now();
-    const int width = std::min(int(size.x), 8192), height = std::min(int(size.y), 8192);
+    // In pixels of the screen, of which a point of the window may have several.
+    const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
+    const int width = std::clamp(int(size.x * dots.x), 32, 8192), height = std::clamp(int(size.y * dots.y), 32, 8192);
     if (dirty_) {
         lastChange_ = time;
         const bool draft = software_ && fullMs_ > kSlowMs;
