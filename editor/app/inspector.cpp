@@ -1,20 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the thaw authors
 // SPDX-License-Identifier: MIT
-#include "app/fields.h"
 #include "app/panels.h"
-
-#include "model/stroke.h"
+#include "app/place_fields.h"
 
 #include <imgui/imgui_stdlib.h>
-
-#include <cstring>
 
 namespace thaw::editor {
 
 namespace {
-
-constexpr float kDegrees = 180 / std::numbers::pi_v<float>;
-const char* const kShapes[] = {"plane", "box", "sphere", "cylinder", "cone", "torus", "mesh"};
 
 void nameField(Studio& studio, Item item) {
     static std::string text; // while it is typed
@@ -35,104 +28,6 @@ void nameField(Studio& studio, Item item) {
     ui::note("name");
     ui::tip("How it is called here and in the file.");
     ImGui::PopID();
-}
-
-/// Degrees about x, y and z of a turn, in the order of scene::quatFromDegrees.
-void eulerOf(const thawQuat& q, float out[3]) {
-    const float sinY = std::clamp(2 * (q.w * q.y - q.z * q.x), -1.0f, 1.0f);
-    out[0] = kDegrees * std::atan2(2 * (q.w * q.x + q.y * q.z), 1 - 2 * (q.x * q.x + q.y * q.y));
-    out[1] = kDegrees * std::asin(sinY);
-    out[2] = kDegrees * std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
-}
-
-template <class Access> void rotationField(Studio& studio, Access access) {
-    // What is typed stays what is typed: angles of one turn are not unique.
-    static float degrees[3];
-    static thawQuat of{0, 0, 0, 0};
-    const thawQuat now = access(studio.scene());
-    if (std::memcmp(&of, &now, sizeof of) != 0) eulerOf(now, degrees), of = now;
-    ui::field("rotation");
-    ImGui::PushID("rotation");
-    if (ImGui::DragFloat3("##v", degrees, 0.5f, -360, 360, "%.1f°")) {
-        const thawQuat to = scene::quatFromDegrees(double(degrees[0]), double(degrees[1]), double(degrees[2]));
-        if (studio.edit(
-                "Set rotation", [&](scene::Scene& s) { access(s) = to; }, "field rotation"))
-            of = access(studio.scene());
-    }
-    ui::note("rotation");
-    if (ImGui::IsItemDeactivatedAfterEdit()) studio.endGesture();
-    ui::tip("Degrees about x, then y, then z.");
-    ImGui::PopID();
-}
-
-template <class Access> void placementFields(Studio& studio, Access access) {
-    ui::vector(
-        studio, "position", [=](auto& s) -> auto& { return access(s).position; }, 1000, 0.5f, "%.1f", 1e4f,
-        "Where its origin is, in mm: x, y (up), z.");
-    rotationField(
-        studio, [=](auto& s) -> auto& { return access(s).rotation; });
-    ui::real(
-        studio, "scale", [=](auto& s) -> auto& { return access(s).scale; }, {1e-6f, 1e6f, "x %.3g", false, 1, 0.005f},
-        "Factor on its size. 0.001 for a mesh in millimetres.");
-}
-
-template <class Access> void shapeFields(Studio& studio, Access access, bool planes) {
-    const scene::Shape shape = access(studio.scene());
-    if (shape.type == scene::ShapeType::mesh) {
-        ui::value("mesh", "%s", shape.meshFile.c_str());
-        ui::tip("File of the mesh, beside the scene.");
-    } else {
-        int type = int(shape.type) - (planes ? 0 : 1);
-        ui::field("shape");
-        ImGui::PushID("shape");
-        if (ImGui::Combo("##v", &type, kShapes + (planes ? 0 : 1), planes ? 6 : 5))
-            studio.edit("Set shape", [&](scene::Scene& s) {
-                scene::Shape& to = access(s);
-                to.type = scene::ShapeType(type + (planes ? 0 : 1));
-                to.tubeRadius = std::min(to.tubeRadius, 0.5f * to.radius);
-            });
-        ui::note("shape");
-        ImGui::PopID();
-    }
-    const auto length = [&](const char* label, auto member, const char* help) {
-        ui::real(
-            studio, label, [=](auto& s) -> auto& { return access(s).*member; },
-            {1e-5f, 1e3f, "%.1f mm", false, 1000, 0.2f}, help);
-    };
-    switch (shape.type) {
-    case scene::ShapeType::box: {
-        thawVec3 size = shape.size;
-        float v[3] = {1000 * size.x, 1000 * size.y, 1000 * size.z};
-        ui::field("size");
-        ImGui::PushID("size");
-        if (ImGui::DragFloat3("##v", v, 0.2f, 0.01f, 1e6f, "%.1f", ImGuiSliderFlags_AlwaysClamp))
-            studio.edit(
-                "Set size",
-                [&](scene::Scene& s) {
-                    const auto keep = [](float x) { return std::clamp(x / 1000, 1e-5f, 1e3f); };
-                    access(s).size = {keep(v[0]), keep(v[1]), keep(v[2])};
-                },
-                "field size");
-        ui::note("size");
-        if (ImGui::IsItemDeactivatedAfterEdit()) studio.endGesture();
-        ui::tip("Lengths of its edges in mm.");
-        ImGui::PopID();
-        break;
-    }
-    case scene::ShapeType::cylinder:
-    case scene::ShapeType::cone:
-        length("height", &scene::Shape::height, "Along its axis.");
-        [[fallthrough]];
-    case scene::ShapeType::sphere:
-        length("radius", &scene::Shape::radius, "Of the round part.");
-        break;
-    case scene::ShapeType::torus:
-        length("radius", &scene::Shape::radius, "Of the ring, to the middle of its tube.");
-        length("tube radius", &scene::Shape::tubeRadius, "Of the tube; smaller than that of the ring.");
-        break;
-    default:
-        break;
-    }
 }
 
 void materialCombo(Studio& studio, size_t body) {
@@ -275,153 +170,6 @@ void sourceFields(Studio& studio, size_t i) {
         "How it is drawn. It heats in any case.");
 }
 
-void controlFields(Studio& studio, bool path, size_t i) {
-    const scene::Scene& s = studio.scene();
-    const int collider = path ? s.paths[i].collider : s.shapes[i].collider;
-    ui::value("moves with", "%s", collider < 0 ? "nothing" : titleOf(s, {Kind::collider, collider}).c_str());
-    ui::tip("The collider that it was drawn on.");
-}
-
-void pathFields(Studio& studio, size_t i) {
-    const auto p = [i](auto& s) -> auto& { return s.paths[i].def; };
-    ui::flag(
-        studio, "enabled", [=](auto& s) -> auto& { return p(s).enabled; }, "It is on.");
-    ui::real(
-        studio, "radius", [=](auto& s) -> auto& { return p(s).radius; }, {1e-4f, 10, "%.1f mm", false, 1000, 0.1f},
-        "Half the width of the stream.",
-        [=](scene::Scene& s) {
-            thawPathDef& d = p(s);
-            if (d.reach > 0) d.reach = std::max(d.reach, d.radius);
-            if (d.beadSpacing > 0) d.beadSpacing = std::max(d.beadSpacing, 2 * d.radius);
-        });
-    ui::maybe(
-        studio, "reach", [=](auto& s) -> auto& { return p(s).reach; }, 0, 3 * studio.scene().paths[i].def.radius,
-        "twice the radius", {studio.scene().paths[i].def.radius, 10, "%.1f mm", false, 1000, 0.2f},
-        "From where melt is drawn to it.");
-    ui::real(
-        studio, "strength", [=](auto& s) -> auto& { return p(s).strength; }, {0, 1, "%.2f"},
-        "0: nothing, 0.5: a hint, 1: a lock.");
-    ui::real(
-        studio, "speed", [=](auto& s) -> auto& { return p(s).speed; }, {0, 100, "%.0f mm/s", false, 1000, 1},
-        "Along the path; 0: the melt's own.");
-    ui::maybe(
-        studio, "arrival", [=](auto& s) -> auto& { return p(s).arrivalTime; }, 0, 4, "by its speed",
-        {0, 1e4f, "%.1f s", false, 1, 0.05f}, "When the first melt is at the end; goes before the speed.");
-    ui::real(
-        studio, "share", [=](auto& s) -> auto& { return p(s).share; }, {0, 1e6f, "%.2f", false, 1, 0.02f},
-        "Of what flows where paths part, in relation to the others'.");
-    ui::maybe(
-        studio, "beads", [=](auto& s) -> auto& { return p(s).beadSpacing; }, 0,
-        std::max(4 * studio.scene().paths[i].def.radius, 0.01f), "an even stream",
-        {2 * studio.scene().paths[i].def.radius, 10, "%.1f mm", false, 1000, 0.2f},
-        "Along it between beads; at least twice the radius.");
-    ui::maybe(
-        studio, "start takes up", [=](auto& s) -> auto& { return p(s).startAbsorptivity; }, NAN, 1, "as the material",
-        {0, 1, "%.2f", false, 1, 0.01f}, "Share of radiation at its first point: melting starts there.");
-    ui::whole(
-        studio, "priority", [=](auto& s) -> auto& { return p(s).priority; }, -10, 10, "%d",
-        "Where paths cross, melt takes the highest.");
-    ui::flag(
-        studio, "smooth", [=](auto& s) -> auto& { return p(s).smooth; },
-        "A spline through its nodes; off: straight from one to the next.");
-    controlFields(studio, true, i);
-    const std::vector<thawVec3>& points = studio.scene().paths[i].points;
-    ui::value("nodes", "%zu, %.1f mm long", points.size(), double(1000 * lengthOf(points, false)));
-    if (ui::button("Smooth"))
-        studio.edit("Smooth path", [&](scene::Scene& s) { s.paths[i].points = smoothed(s.paths[i].points, 2, false); });
-    ui::tip("Takes trembling out of the line.");
-    ImGui::SameLine();
-    if (ui::button("Fewer nodes"))
-        studio.edit("Fewer nodes", [&](scene::Scene& s) {
-            auto& line = s.paths[i].points;
-            line = resampled(line, 1.5f * lengthOf(line, false) / float(line.size()), false);
-        });
-    ImGui::SameLine();
-    if (ui::button("Turn round"))
-        studio.edit("Turn path round",
-                    [&](scene::Scene& s) { std::reverse(s.paths[i].points.begin(), s.paths[i].points.end()); });
-    ui::tip("It flows the other way.");
-    if (studio.node >= 0 && size_t(studio.node) < points.size()) {
-        const size_t n = size_t(studio.node);
-        ui::vector(
-            studio, "node", [=](auto& s) -> auto& { return s.paths[i].points[n]; }, 1000, 0.5f, "%.1f", 1e4f,
-            "The chosen node, in mm.");
-    }
-    if (i < studio.frame().paths.size()) {
-        const thawPathState& now = studio.frame().paths[i];
-        ImGui::Separator();
-        ui::value("follows now", "%.2f g", double(1000 * now.mass));
-        ui::value("arrived", "%.2f g", double(1000 * now.arrived));
-        ui::value("spilled", "%.2f g", double(1000 * now.spilled));
-        ui::value("off the line", "%.1f mm", double(1000 * now.meanDistance));
-        if (std::isfinite(now.arrivalTime)) ui::value("was there after", "%.2f s", double(now.arrivalTime));
-    }
-}
-
-void shapeFieldsOf(Studio& studio, size_t i) {
-    const auto p = [i](auto& s) -> auto& { return s.shapes[i].def; };
-    ui::flag(
-        studio, "enabled", [=](auto& s) -> auto& { return p(s).enabled; }, "It is on.");
-    ui::real(
-        studio, "strength", [=](auto& s) -> auto& { return p(s).strength; }, {0, 1, "%.2f"},
-        "0: nothing, 0.5: a hint, 1: a lock.");
-    ui::maybe(
-        studio, "reach", [=](auto& s) -> auto& { return p(s).reach; }, 0, 0.03f, "half its size",
-        {1e-4f, 10, "%.1f mm", false, 1000, 0.5f}, "Beyond its rim, from where melt is drawn.");
-    ui::real(
-        studio, "speed", [=](auto& s) -> auto& { return p(s).speed; }, {1e-4f, 100, "%.0f mm/s", false, 1000, 1},
-        "At most, at which melt is led.");
-    const bool flat = !studio.scene().shapes[i].contours.empty();
-    if (flat) {
-        ui::maybe(
-            studio, "depth", [=](auto& s) -> auto& { return p(s).depth; }, 0, 0.02f, "as its reach",
-            {1e-4f, 10, "%.1f mm", false, 1000, 0.2f}, "Off the surface to both sides, where it works.");
-        ui::maybe(
-            studio, "thickness", [=](auto& s) -> auto& { return p(s).thickness; }, 0,
-            3 * studio.scene().world.particleSpacing, "all melt there is", {0, 10, "%.1f mm", false, 1000, 0.1f},
-            "At which it is full and takes up no more.");
-    }
-    ui::flag(
-        studio, "sets", [=](auto& s) -> auto& { return p(s).sets; },
-        "What is in it is cooled until it sets, once it is full.");
-    ui::real(
-        studio, "set at", [=](auto& s) -> auto& { return p(s).setFill; }, {0, 1, "%.2f"},
-        "Share of it that is covered, or filled, when that begins.");
-    ui::real(
-        studio, "set time", [=](auto& s) -> auto& { return p(s).setTime; }, {0, 1e4f, "%.1f s", false, 1, 0.05f},
-        "That it takes about.");
-    ui::whole(
-        studio, "priority", [=](auto& s) -> auto& { return p(s).priority; }, -10, 10, "%d",
-        "Where shapes overlap, melt obeys the highest.");
-    controlFields(studio, false, i);
-    if (flat) {
-        const auto& contours = studio.scene().shapes[i].contours;
-        ui::value("contours", "%zu", contours.size());
-        if (ui::button("Smooth"))
-            studio.edit("Smooth shape", [&](scene::Scene& s) {
-                for (auto& c : s.shapes[i].contours) c = smoothed(c, 2, true);
-            });
-        ImGui::SameLine();
-        if (ui::button("Fewer nodes"))
-            studio.edit("Fewer nodes", [&](scene::Scene& s) {
-                for (auto& c : s.shapes[i].contours) c = resampled(c, 1.5f * lengthOf(c, true) / float(c.size()), true);
-            });
-    } else {
-        shapeFields(
-            studio, [i](auto& s) -> auto& { return s.shapes[i].shape; }, false);
-        placementFields(
-            studio, [i](auto& s) -> auto& { return s.shapes[i].placement; });
-    }
-    if (i < studio.frame().shapes.size()) {
-        const thawShapeState& now = studio.frame().shapes[i];
-        ImGui::Separator();
-        ui::value("filled", "%.0f %%", double(100 * now.fill));
-        ui::value("inside", "%.2f g", double(1000 * now.inside));
-        ui::value("spilled", "%.2f g", double(1000 * now.spilled));
-        ui::value("set", "%.2f g", double(1000 * now.set));
-    }
-}
-
 void worldFields(Studio& studio) {
     const auto w = [](auto& s) -> auto& { return s.world; };
     ui::real(
@@ -503,10 +251,10 @@ void showInspector(Studio& studio) {
         sourceFields(studio, i);
         break;
     case Kind::path:
-        pathFields(studio, i);
+        showPath(studio, i);
         break;
     case Kind::shape:
-        shapeFieldsOf(studio, i);
+        showShape(studio, i);
         break;
     case Kind::prop:
         shapeFields(

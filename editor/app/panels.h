@@ -14,6 +14,8 @@ void showOutliner(Studio& studio);
 void showAddMenu(Studio& studio);
 void showInspector(Studio& studio);
 void showMaterial(Studio& studio, int material);
+void showPath(Studio& studio, size_t path);
+void showShape(Studio& studio, size_t shape);
 void showToolSettings(Studio& studio);
 void showViewPanel(Studio& studio, Viewport& viewport);
 void showParticle(Studio& studio);

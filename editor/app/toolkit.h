@@ -8,6 +8,7 @@
 
 #include <imgui/imgui.h>
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct Pointer {
     bool clickedTwice = false;
     bool shift = false, ctrl = false;
 };
+
+constexpr float kReach = 9; // pixels, of what can be taken hold of
+inline float between(ImVec2 a, ImVec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 /// What the left button does, and what is drawn over the picture.
 class ToolKit {
