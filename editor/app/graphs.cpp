@@ -63,7 +63,10 @@ void frameGraph(const Frame& f, float budget, ImVec2 size) {
     list.AddLine({low.x, y(budget)}, {high.x, y(budget)}, IM_COL32(255, 255, 255, 200));
     char text[48];
     std::snprintf(text, sizeof text, "%.1f ms", double(budget));
-    list.AddText({low.x + 4, y(budget) - ImGui::GetFontSize() - 1}, IM_COL32(255, 255, 255, 200), text);
+    const ImVec2 label(low.x + 4, std::max(low.y, y(budget) - ImGui::GetFontSize() - 2)),
+        room = ImGui::CalcTextSize(text);
+    list.AddRectFilled({label.x - 3, label.y}, {label.x + room.x + 3, label.y + room.y}, IM_COL32(20, 20, 22, 200), 2);
+    list.AddText(label, IM_COL32(255, 255, 255, 230), text);
     ImGui::InvisibleButton("frame graph", size);
     ui::note("frame graph");
     if (hovered >= 0 && ImGui::IsItemHovered()) {
@@ -121,19 +124,24 @@ void showGraphs(Studio& studio, const Viewport& viewport) {
     const float space = ImGui::GetContentRegionAvail().y;
     const float forLanes = studio.settings.showTimeline ? 2.4f * ImGui::GetFontSize() : 0;
     const float line = ImGui::GetTextLineHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
+    // The numbers below stand in one line, or two where there is little room.
+    const float lines = ImGui::GetContentRegionAvail().x > 38 * ImGui::GetFontSize() ? 2.0f : 3.0f;
     frameGraph(
         f, studio.budget(),
-        {ImGui::GetContentRegionAvail().x, std::max(40.0f, space - 2 * line - forLanes - (forLanes > 0 ? 4 : 0))});
+        {ImGui::GetContentRegionAvail().x, std::max(40.0f, space - lines * line - forLanes - (forLanes > 0 ? 4 : 0))});
     if (forLanes > 0) lanes(studio, {ImGui::GetContentRegionAvail().x, forLanes});
     for (size_t i = 0; i < std::size(kParts); ++i) {
-        if (i) ImGui::SameLine();
+        if (i) ui::beside(kParts[i].name, 0);
         ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kParts[i].color), "%s", kParts[i].name);
     }
     const float last = f.steps.size() ? f.steps.newest().profile.step : 0;
-    ui::quietf("step %.2f ms   mesh %.2f ms   picture %.0f ms   %d particles, %d moving", double(last),
-               double(f.steps.size() ? f.steps.newest().surfaceMs : 0), double(viewport.drawMs()), f.counters.particles,
-               f.counters.moving);
-    ImGui::SameLine();
+    char counts[80];
+    std::snprintf(counts, sizeof counts, "%d particles, %d moving", f.counters.particles, f.counters.moving);
+    ui::quietf("step %.2f ms  mesh %.2f ms  picture %.0f ms", double(last),
+               double(f.steps.size() ? f.steps.newest().surfaceMs : 0), double(viewport.drawMs()));
+    ui::beside(counts, 0);
+    ui::quiet(counts);
+    ui::beside("threads", 2 * ImGui::GetFrameHeight());
     ui::toggle("threads", &studio.settings.showTimeline);
     ui::tip("Shows what the simulation and the window do when.");
 }

@@ -89,8 +89,10 @@ void bodyFields(Studio& studio, size_t i) {
     if (i < f.bodyReports.size()) {
         const thawMeshReport& r = f.bodyReports[i];
         if (r.openEdges + r.nonManifoldEdges + r.inconsistentEdges + r.degenerateTriangles > 0 || r.inverted) {
+            ImGui::PushTextWrapPos(0);
             ui::quietf("its mesh was repaired: %u open edges, %u with more than two faces, %u faces without area%s",
                        r.openEdges, r.nonManifoldEdges, r.degenerateTriangles, r.inverted ? ", inside out" : "");
+            ImGui::PopTextWrapPos();
         }
     }
 }

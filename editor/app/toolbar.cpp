@@ -175,6 +175,8 @@ void showParticle(Studio& studio) {
 
 void showViewPanel(Studio& studio, Viewport& viewport) {
     ViewSettings& v = studio.view;
+    const float frame = 2 * ImGui::GetStyle().FramePadding.x;
+    const float box = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
     static const char* const help[] = {"A studio picture: light, shadow, glow.",
                                        "The surface by temperature.",
                                        "Solid, mushy or liquid.",
@@ -201,18 +203,18 @@ void showViewPanel(Studio& studio, Viewport& viewport) {
     }
     ui::note("view");
     ui::tip("What the picture shows.", "V: the next one");
-    ImGui::SameLine();
+    ui::beside("controls", box);
     ui::toggle("controls", &v.controls);
     ui::tip("Paths and shapes as they reach, over the picture.");
-    ImGui::SameLine();
+    ui::beside("handles", box);
     ui::toggle("handles", &v.icons);
     ui::tip("Heat sources, lines and nodes.");
-    ImGui::SameLine();
+    ui::beside("cut", box);
     ui::toggle("cut", &v.clip);
     ui::tip("Leaves out what lies before a plane, to look inside.");
     if (v.clip) {
         static const char* const axes[] = {"x", "y", "z"};
-        ImGui::SameLine();
+        ui::beside("", 8.5f * ImGui::GetFontSize());
         ImGui::SetNextItemWidth(3 * ImGui::GetFontSize());
         ImGui::Combo("##cut axis", &v.clipAxis, axes, 3);
         ui::note("cut axis");
@@ -224,10 +226,10 @@ void showViewPanel(Studio& studio, Viewport& viewport) {
         ui::note("cut offset");
         ui::tip("How far before the middle of the scene.");
     }
-    ImGui::SameLine();
+    ui::beside("Focus", frame);
     if (ui::button("Focus")) viewport.focus(studio);
     ui::tip("Looks at what is chosen, or at everything.", "F");
-    ImGui::SameLine();
+    ui::beside("Camera ...", frame);
     if (ui::button("Camera ...##camera menu")) ImGui::OpenPopup("camera");
     ui::tip("The scene's own camera, that of captures.");
     if (!ImGui::BeginPopup("camera")) return;

@@ -34,7 +34,7 @@ void showTransport(Studio& studio) {
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::Text("%6.2f s", f.time);
-    ImGui::SameLine();
+    ui::beside("", 14 * ImGui::GetFontSize());
 
     // The scrubber: what has been run can be gone back to.
     int64_t at = f.frame;

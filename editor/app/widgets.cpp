@@ -68,6 +68,13 @@ void value(const char* label, const char* format, ...) {
     va_end(args);
 }
 
+void beside(const char* label, float extra) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float end =
+        ImGui::GetItemRectMax().x + style.ItemSpacing.x + ImGui::CalcTextSize(label, nullptr, true).x + extra;
+    if (end < ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
+}
+
 bool section(const char* label, bool open) {
     const bool shown = ImGui::CollapsingHeader(label, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     note(nameOf(label));

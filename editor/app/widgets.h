@@ -55,6 +55,9 @@ void quiet(const char* text);
 void quietf(const char* format, ...) IM_FMTARGS(1);
 /// Label and value of a line of numbers.
 void value(const char* label, const char* format, ...) IM_FMTARGS(2);
+/// The next control stands beside the last one where it fits, else below it. label: that it will have; extra: pixels of
+/// it beside its label.
+void beside(const char* label, float extra);
 /// A heading that folds; open at first.
 bool section(const char* label, bool open = true);
 /// Begins a line with its label at the left and the control at the right, which takes the rest.

@@ -43,6 +43,7 @@ expect 2 "no picture 'mona_lisa'" gallery mona_lisa
 expect 2 "no picture 'mona_lisa'" gallery candle mona_lisa
 expect 2 '--check takes no names' gallery --check candle
 expect 0 'capture samples/scenes/candle.json' gallery --list
+expect 0 'tour path samples/scenes/candle.json' gallery --list
 expect 0 'usage: ./thaw clean' clean --help
 expect 2 'clean takes no arguments' clean all
 
