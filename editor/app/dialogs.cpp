@@ -299,7 +299,8 @@ void Dialogs::keys() {
                                                     {"?", "this list"}};
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * screen.x, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowBgAlpha(0.94f);
+    ImGui::SetNextWindowBgAlpha(0.98f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     if (ImGui::Begin("Keys", &shortcuts, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) {
         for (const auto& row : rows) {
             ImGui::TextColored({1, 0.85f, 0.45f, 1}, "%s", row[0]);
@@ -308,6 +309,7 @@ void Dialogs::keys() {
         }
     }
     ImGui::End();
+    ImGui::PopStyleVar();
 }
 
 void Dialogs::show(Studio& studio, Exporter& exporter) {

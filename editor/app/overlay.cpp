@@ -75,6 +75,18 @@ void ToolKit::overlay(Studio& studio, const Lens& lens, const Pointer& pointer, 
             polyline({line_.back(), line_.front()}, false, IM_COL32(255, 230, 90, 110), 1.5f);
     }
     const Tool tool = studio.tool;
+    if (tool == Tool::probe && studio.hasPickedParticle) {
+        const thawParticleView all = studio.frame().particles.view();
+        for (int i = 0; i < all.count; ++i) {
+            if (all.ids[i] != studio.pickedParticle) continue;
+            const float* x = all.positions + 4 * size_t(i);
+            if (const auto p = lens.project({x[0], x[1], x[2]})) {
+                draw.AddCircle(*p, 9, IM_COL32(0, 0, 0, 200), 24, 4);
+                draw.AddCircle(*p, 9, IM_COL32(255, 255, 255, 255), 24, 2);
+            }
+            break;
+        }
+    }
     const bool brush = tool == Tool::temperature || tool == Tool::absorptivity || tool == Tool::erase;
     if ((brush || tool == Tool::path) && pointer.over)
         if (const std::optional<Hit> hit = under(studio, lens, pointer.at)) {

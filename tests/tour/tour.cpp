@@ -196,6 +196,12 @@ struct Tour {
     void export_() {
         hand.key(GLFW_KEY_E, true);
         require(hand.wait([&] { return hand.sees("begin export"); }, 50), "no export window");
+        // Not the folder of this machine.
+        hand.frame(2);
+        hand.click("export folder");
+        hand.key(GLFW_KEY_A, true);
+        hand.type("/home/artist/candle");
+        hand.key(GLFW_KEY_HOME);
     }
     void keys() { hand.key(GLFW_KEY_SLASH, false, true); }
 };
