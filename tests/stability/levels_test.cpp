@@ -368,7 +368,8 @@ TEST_CASE("levels: a pool at rest hardly notices that it merges and splits") {
                 compression = std::max(compression, f.counters().meanCompression);
             }
             CHECK(1e3 * rms < static_cast<double>(1.6f * coarser));
-            CHECK(1e3 * fastest < static_cast<double>(20 * coarser));
+            // A half that comes to lie behind a wall is pushed out of it at 12 and more.
+            CHECK(1e3 * fastest < static_cast<double>((finest ? 20 : 10) * coarser));
             CHECK(compression < 0.03f);
             if (finest == 1)
                 CHECK(f.counters().particles < rows * 11 / 20);

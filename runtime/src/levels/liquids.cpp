@@ -23,7 +23,9 @@ constexpr float kNear = 1.3f, kSlow = 0.5f;
 // Where it is calm, what an event changed and all around it is so many times as viscous at first, at most by as many
 // times density x spacing^2 / step: the end of it is the same, with less of a kick (`thaw bench kicks`).
 constexpr float kStiff = 100;
-// A half comes no nearer to a wall, in its own spacings.
+// A half comes no nearer to a wall, in its own spacings. Where it has to, by the square of how much: what lies at the
+// wall splits along it. With each half counted alike it split across it, and the wall threw out what came to lie
+// behind: 8.9 mm/s at 2 mm and 20.7 at 4 mm instead of 5.8 and 11.4 (levels_test.cpp).
 constexpr float kWall = 0.45f;
 
 float wendland(float r, float h) { return wendlandShape(r / h) / (h * h * h); }
@@ -69,7 +71,9 @@ void Levels::splitLiquid(const LevelFrame& f, size_t i, bool calm) {
         });
         for (int c = 0; c < f.colliderCount; ++c) {
             Vec3 normal;
-            if (f.colliders[c].alive && f.colliders[c].distance(place, normal) < kWall * h / kSupport) sum += 1e6f;
+            if (!f.colliders[c].alive) continue;
+            const float deep = std::max(0.0f, kWall - f.colliders[c].distance(place, normal) * kSupport / h);
+            sum += 1e6f * deep * deep;
         }
         return sum;
     };
