@@ -180,9 +180,13 @@ void Viewport::draw(Studio& studio, int width, int height) {
 
 view::Image Viewport::picture(Studio& studio, int width, int height) {
     stage(studio);
-    view_.samples = 4, view_.legend = true;
+    // Whatever the window made do with last.
+    view_.samples = 4, view_.legend = true, view_.draft = false;
     view_.width = width, view_.height = height;
-    view_.camera = lens.camera();
+    const Frame& f = studio.frame();
+    view_.camera = studio.view.followCamera && f.scene
+                       ? scene::viewCamera(scene::cameraAt(studio.scene().camera, f.time))
+                       : lens.camera();
     melt(studio);
     std::string error;
     std::optional<view::Image> image = renderer_->capture(scene_, view_, error);
